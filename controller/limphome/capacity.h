@@ -1,0 +1,28 @@
+/* Compile-time capacities. Every struct of the library has its full size by them; nothing is allocated.
+ * Define any of them on the command line to make the library smaller or larger; all sources and callers must agree.
+ *
+ * Bytes: lh_network 4 * LH_MAX_UNITS * (LH_MAX_INPUTS + 2) + 8; action values 4 * LH_MAX_ACTIONS. */
+#ifndef LIMPHOME_CAPACITY_H
+#define LIMPHOME_CAPACITY_H
+
+#ifndef LH_MAX_ACTUATORS
+#define LH_MAX_ACTUATORS 8 /* crawlers and arm joints of the robot */
+#endif
+#ifndef LH_MAX_UNITS
+#define LH_MAX_UNITS 64 /* basis functions of the network */
+#endif
+#ifndef LH_MAX_LINKS
+#define LH_MAX_LINKS 16 /* rigid bodies of the robot */
+#endif
+#ifndef LH_MAX_SUPPORTS
+#define LH_MAX_SUPPORTS 12 /* points on which the robot can stand */
+#endif
+#ifndef LH_MAX_ACTIONS
+#define LH_MAX_ACTIONS 6561 /* joint actions, LH_ACTION_LEVELS ^ LH_MAX_ACTUATORS */
+#endif
+
+#define LH_ACTION_LEVELS 3                           /* reverse, still, forward: Table 1 */
+#define LH_MAX_INPUTS (2 * LH_MAX_ACTUATORS + 2)     /* states and actions of all actuators, roll, pitch */
+#define LH_MAX_STATE_INPUTS (LH_MAX_ACTUATORS + 2)   /* states of all actuators, roll, pitch */
+
+#endif

@@ -1,0 +1,39 @@
+/* Elementary functions in single precision that give the same bits on every platform, unlike those of libm:
+ * only +, -, *, / and square root, which IEEE 754 rounds alike everywhere. Compile with -ffp-contract=off.
+ * NaN in gives NaN out. */
+#ifndef LIMPHOME_ELEMENTARY_H
+#define LIMPHOME_ELEMENTARY_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define LH_PI 3.14159265358979f
+
+/* e^x; relative error below 2e-7 where the result is normal; 0 below about -103.97, infinity above about 88.72. */
+float lh_exp(float x);
+
+/* Natural logarithm; absolute error below 2e-7 near 1, relative below 2e-7 elsewhere; x > 0.
+ * log(0) is -infinity, of a negative number NaN. */
+float lh_log(float x);
+
+/* Sine and cosine; absolute error below 2e-7 for |x| up to 8192 rad. NaN for infinity. */
+float lh_sin(float x);
+float lh_cos(float x);
+
+/* Angle of (x, y) in [-pi, pi]; absolute error below 4e-7; atan2(0, 0) is 0, signs of zero are not told apart. */
+float lh_atan2(float y, float x);
+
+/* Arc sine in [-pi/2, pi/2]; x is limited to [-1, 1] first; absolute error below 5e-7. */
+float lh_asin(float x);
+
+/* Square root, correctly rounded; NaN below 0. */
+float lh_sqrt(float x);
+
+/* x brought into (-pi, pi] by whole turns; for |x| up to 100 rad. */
+float lh_wrap_angle(float x);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

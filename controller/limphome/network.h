@@ -1,0 +1,66 @@
+/* The RBF network that stands for Q: y = sum_j w_j phi_j(x) (13),
+ * phi_j(x) = exp(-sum_i (x_i - mu_ij)^2 / sigma_j^2) (14), learning by (19)-(21). */
+#ifndef LIMPHOME_NETWORK_H
+#define LIMPHOME_NETWORK_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "limphome/capacity.h"
+#include "limphome/error.h"
+#include "limphome/random.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct lh_network_config {
+    int32_t units;        /* 1 to LH_MAX_UNITS; paper: 50 */
+    int32_t inputs;       /* 1 to LH_MAX_INPUTS; paper: 10 */
+    float rate_weight;    /* alpha_w of (19), 0 to 10; paper: 0.1 */
+    float rate_width;     /* alpha_sigma of (20), 0 to 10; paper: 0.01 */
+    float rate_centre;    /* alpha_mu of (21), 0 to 10; paper: 0.1 */
+    float initial_weight; /* w_j, |.| up to weight_limit; default 0 */
+    float initial_width;  /* sigma_j, width_floor to 100; paper: 1.0 */
+    float width_floor;    /* least sigma_j, 0.01 to 1; default 0.05 */
+    float weight_limit;   /* largest |w_j|, 1 to 1e6; default 1e4 */
+    /* false: (19)-(21) as printed. true: the derivative of (15) by (13)(14), which has alpha delta for
+     * alpha^2 delta in all three and a factor 2 in (20) and (21). */
+    bool exact_gradient;
+} lh_network_config;
+
+/* Parameters that are learned. Only the first `units` rows and `inputs` columns are used; the rest is 0. */
+typedef struct lh_network {
+    int32_t units;
+    int32_t inputs;
+    float weight[LH_MAX_UNITS];                /* w_j [units] */
+    float width[LH_MAX_UNITS];                 /* sigma_j [units], at least width_floor */
+    float centre[LH_MAX_UNITS][LH_MAX_INPUTS]; /* mu_ij [units][inputs] */
+} lh_network;
+
+/* Table 2, with 50 units and 10 inputs. */
+lh_network_config lh_network_config_default(void);
+
+/* LH_OK, or the error of the first bad field. */
+lh_error lh_network_config_validate(const lh_network_config *config);
+
+/* All weights and widths at their initial value, centres uniform in [0, 1), drawn unit by unit.
+ * An invalid configuration is returned as its error and nothing is changed. */
+lh_error lh_network_init(lh_network *network, const lh_network_config *config, lh_random *random);
+
+/* LH_OK if `network` fits the configuration and every parameter is finite and within its limits. */
+lh_error lh_network_validate(const lh_network *network, const lh_network_config *config);
+
+/* y of (13) at x[inputs]. phi[units], if not NULL, receives phi_j(x) of (14). */
+float lh_network_value(const lh_network *network, const float *x, float *phi);
+
+/* One step of (19)-(21) towards y + alpha * delta at x[inputs]: `learning_rate` is alpha of (2), `td_error` delta of (1).
+ * All three use the values from before the step. Parameters that would leave their limits, or not be finite, are
+ * held at the limit or left as they are. Returns how many were. */
+int32_t lh_network_learn(lh_network *network, const lh_network_config *config, const float *x, float learning_rate,
+                         float td_error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
