@@ -23,10 +23,12 @@ struct key {
 };
 
 #define AT(section, name) offsetof(settings, section.name)
-#define REAL_KEY(s, n, low, high, standard, meaning) {#s, #n, REAL, AT(s, n), low, high, standard, NULL, true, meaning}
+#define REAL_KEY(s, n, low, high, standard, meaning) \
+    { #s, #n, REAL, AT(s, n), low, high, standard, NULL, true, meaning }
 #define WHOLE_KEY(s, n, low, high, standard, meaning) \
-    {#s, #n, WHOLE, AT(s, n), low, high, standard, NULL, true, meaning}
-#define CHOICE_KEY(s, n, words, standard, meaning) {#s, #n, CHOICE, AT(s, n), 0, 0, standard, words, true, meaning}
+    { #s, #n, WHOLE, AT(s, n), low, high, standard, NULL, true, meaning }
+#define CHOICE_KEY(s, n, words, standard, meaning) \
+    { #s, #n, CHOICE, AT(s, n), 0, 0, standard, words, true, meaning }
 
 static const struct key keys[] = {
     WHOLE_KEY(learning, seed, 0, 2147483647, 1, "seed of every random number"),
@@ -91,9 +93,13 @@ static const struct key keys[] = {
 };
 enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
 
-static double *real_field(settings *s, const struct key *key) { return (double *)(void *)((char *)s + key->offset); }
+static double *real_field(settings *s, const struct key *key) {
+    return (double *)(void *)((char *)s + key->offset);
+}
 
-static int64_t *whole_field(settings *s, const struct key *key) { return (int64_t *)(void *)((char *)s + key->offset); }
+static int64_t *whole_field(settings *s, const struct key *key) {
+    return (int64_t *)(void *)((char *)s + key->offset);
+}
 
 settings settings_default(void) {
     settings s;
@@ -203,8 +209,8 @@ static int set_key(settings *s, const char *place, const char *section, const ch
     }
     if (!assign(s, key, value)) {
         print_range(key, allowed, sizeof allowed);
-        snprintf(error, SETTINGS_ERROR_LENGTH, "%s: [%s] %s = %.60s: not allowed; %s is %s", place, section, name, value,
-                 name, allowed);
+        snprintf(error, SETTINGS_ERROR_LENGTH, "%s: [%s] %s = %.60s: not allowed; %s is %s", place, section, name,
+                 value, name, allowed);
         return -1;
     }
     return 0;
@@ -231,8 +237,8 @@ static char *read_line(char *buffer, int size, void *stream) {
     }
     if (reading->too_long && !reading->failed) {
         reading->failed = true;
-        snprintf(reading->error, SETTINGS_ERROR_LENGTH, "%.200s:%d: line too long; at most %d characters", reading->path,
-                 reading->line, size - 2);
+        snprintf(reading->error, SETTINGS_ERROR_LENGTH, "%.200s:%d: line too long; at most %d characters",
+                 reading->path, reading->line, size - 2);
     }
     return reading->failed ? NULL : line;
 }
@@ -277,7 +283,8 @@ int settings_read(settings *s, const char *path, char error[SETTINGS_ERROR_LENGT
         return -1;
     }
     if (first_bad > 0) {
-        snprintf(error, SETTINGS_ERROR_LENGTH, "%.200s:%d: neither [section], key = value, nor comment", path, first_bad);
+        snprintf(error, SETTINGS_ERROR_LENGTH, "%.200s:%d: neither [section], key = value, nor comment", path,
+                 first_bad);
         return -1;
     }
     *s = read;

@@ -23,21 +23,21 @@ enum settings_pace { SETTINGS_LOCKSTEP = 0, SETTINGS_REAL_TIME = 1 };
 
 typedef struct settings {
     struct {
-        int64_t seed;          /* of every random number, 0 to 2^31 - 1 */
-        int64_t episodes;      /* to train for, 1 to 1000000 */
-        double learning_rate;  /* alpha of (2), 0 to 1 */
-        double discount_rate;  /* gamma of (1), 0 to 1 */
+        int64_t seed;         /* of every random number, 0 to 2^31 - 1 */
+        int64_t episodes;     /* to train for, 1 to 1000000 */
+        double learning_rate; /* alpha of (2), 0 to 1 */
+        double discount_rate; /* gamma of (1), 0 to 1 */
     } learning;
     struct {
-        int64_t units;          /* basis functions of (13), 1 to 64 */
-        double rate_weight;     /* alpha_w of (19), 0 to 10 */
-        double rate_width;      /* alpha_sigma of (20), 0 to 10 */
-        double rate_centre;     /* alpha_mu of (21), 0 to 10 */
-        double initial_weight;  /* w_j, -100 to 100 */
-        double initial_width;   /* sigma_j, 0.05 to 100 */
-        double width_floor;     /* least sigma_j, 0.01 to 1 */
-        double weight_limit;    /* largest |w_j|, 1 to 1e6 */
-        int64_t gradient;       /* enum settings_gradient: (19)-(21) as printed, or the derivative of (15) */
+        int64_t units;         /* basis functions of (13), 1 to 64 */
+        double rate_weight;    /* alpha_w of (19), 0 to 10 */
+        double rate_width;     /* alpha_sigma of (20), 0 to 10 */
+        double rate_centre;    /* alpha_mu of (21), 0 to 10 */
+        double initial_weight; /* w_j, -100 to 100 */
+        double initial_width;  /* sigma_j, 0.05 to 100 */
+        double width_floor;    /* least sigma_j, 0.01 to 1 */
+        double weight_limit;   /* largest |w_j|, 1 to 1e6 */
+        int64_t gradient;      /* enum settings_gradient: (19)-(21) as printed, or the derivative of (15) */
     } rbf;
     struct {
         double temperature_floor; /* least T of (4), 1e-4 to 10 */

@@ -21,8 +21,8 @@
 #define LH_MAX_ACTIONS 6561 /* joint actions, LH_ACTION_LEVELS ^ LH_MAX_ACTUATORS */
 #endif
 
-#define LH_ACTION_LEVELS 3                           /* reverse, still, forward: Table 1 */
-#define LH_MAX_INPUTS (2 * LH_MAX_ACTUATORS + 2)     /* states and actions of all actuators, roll, pitch */
-#define LH_MAX_STATE_INPUTS (LH_MAX_ACTUATORS + 2)   /* states of all actuators, roll, pitch */
+#define LH_ACTION_LEVELS 3                         /* reverse, still, forward: Table 1 */
+#define LH_MAX_INPUTS (2 * LH_MAX_ACTUATORS + 2)   /* states and actions of all actuators, roll, pitch */
+#define LH_MAX_STATE_INPUTS (LH_MAX_ACTUATORS + 2) /* states of all actuators, roll, pitch */
 
 #endif

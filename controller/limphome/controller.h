@@ -74,9 +74,9 @@ typedef struct lh_decision {
     float inputs[LH_MAX_INPUTS]; /* of the network: states, roll, pitch, then the chosen action */
 
     /* what to do now */
-    bool reset;             /* put the robot into its initial pose; nothing below is set */
+    bool reset; /* put the robot into its initial pose; nothing below is set */
     lh_choice choice;
-    float temperature;      /* T of (4) */
+    float temperature;                /* T of (4) */
     float velocity[LH_MAX_ACTUATORS]; /* [robot.num_actuators], m/s or rad/s; 0 where not controlled */
 } lh_decision;
 
@@ -87,12 +87,12 @@ typedef struct lh_controller {
     lh_learner learner;
     lh_episode episode;
     /* the step under way */
-    bool acting;                            /* an action was chosen and its result is awaited */
-    bool awaiting_reset;                    /* the next state is that of the initial pose */
-    int32_t action;                         /* chosen joint action */
-    lh_pose2 pose;                          /* where it was chosen */
-    float inputs[LH_MAX_STATE_INPUTS];      /* state inputs there */
-    int64_t clamped;                        /* sensor values limited to their range so far */
+    bool acting;                       /* an action was chosen and its result is awaited */
+    bool awaiting_reset;               /* the next state is that of the initial pose */
+    int32_t action;                    /* chosen joint action */
+    lh_pose2 pose;                     /* where it was chosen */
+    float inputs[LH_MAX_STATE_INPUTS]; /* state inputs there */
+    int64_t clamped;                   /* sensor values limited to their range so far */
 } lh_controller;
 
 /* The paper's values, learning, with Boltzmann selection. */

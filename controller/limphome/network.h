@@ -54,8 +54,8 @@ lh_error lh_network_validate(const lh_network *network, const lh_network_config 
 /* y of (13) at x[inputs]. phi[units], if not NULL, receives phi_j(x) of (14). */
 float lh_network_value(const lh_network *network, const float *x, float *phi);
 
-/* One step of (19)-(21) towards y + alpha * delta at x[inputs]: `learning_rate` is alpha of (2), `td_error` delta of (1).
- * All three use the values from before the step. Parameters that would leave their limits, or not be finite, are
+/* One step of (19)-(21) towards y + alpha * delta at x[inputs]: `learning_rate` is alpha of (2), `td_error` delta of
+ * (1). All three use the values from before the step. Parameters that would leave their limits, or not be finite, are
  * held at the limit or left as they are. Returns how many were. */
 int32_t lh_network_learn(lh_network *network, const lh_network_config *config, const float *x, float learning_rate,
                          float td_error);

@@ -13,9 +13,9 @@ extern "C" {
 
 /* What the sensors tell at one decision. */
 typedef struct lh_state {
-    float position[3];    /* body origin in the world frame [m] */
-    lh_quat orientation;  /* body to world; scaled to unit length on entry */
-    int32_t num_actuators;                    /* equal to the robot's */
+    float position[3];                         /* body origin in the world frame [m] */
+    lh_quat orientation;                       /* body to world; scaled to unit length on entry */
+    int32_t num_actuators;                     /* equal to the robot's */
     float actuator_position[LH_MAX_ACTUATORS]; /* joint angle [rad]; crawlers: not read */
     float actuator_effort[LH_MAX_ACTUATORS];   /* crawler torque about the sprocket [N*m]; joints: not read */
 } lh_state;

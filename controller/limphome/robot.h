@@ -23,14 +23,14 @@ typedef struct lh_actuator {
 } lh_actuator;
 
 typedef struct lh_link {
-    int32_t parent;       /* link it hangs on, less than its own index; -1 for link 0 only */
-    int32_t actuator;     /* joint that turns it about `axis`; -1: fixed to the parent (so are sprockets: turning them
-                             moves no mass) */
-    lh_vec3 origin;       /* of the link's frame in the parent's frame [m] */
-    lh_quat rotation;     /* of the link's frame in the parent's frame at joint angle 0 */
-    lh_vec3 axis;         /* of the joint in the link's frame, unit length */
-    float mass;           /* 0 or more [kg] */
-    lh_vec3 centre;       /* centre of mass in the link's frame [m] */
+    int32_t parent;   /* link it hangs on, less than its own index; -1 for link 0 only */
+    int32_t actuator; /* joint that turns it about `axis`; -1: fixed to the parent (so are sprockets: turning them
+                         moves no mass) */
+    lh_vec3 origin;   /* of the link's frame in the parent's frame [m] */
+    lh_quat rotation; /* of the link's frame in the parent's frame at joint angle 0 */
+    lh_vec3 axis;     /* of the joint in the link's frame, unit length */
+    float mass;       /* 0 or more [kg] */
+    lh_vec3 centre;   /* centre of mass in the link's frame [m] */
 } lh_link;
 
 typedef struct lh_support {
@@ -40,9 +40,9 @@ typedef struct lh_support {
 } lh_support;
 
 typedef struct lh_robot {
-    int32_t num_actuators; /* 1 to LH_MAX_ACTUATORS */
-    int32_t num_links;     /* 1 to LH_MAX_LINKS */
-    int32_t num_supports;  /* 3 to LH_MAX_SUPPORTS */
+    int32_t num_actuators;                   /* 1 to LH_MAX_ACTUATORS */
+    int32_t num_links;                       /* 1 to LH_MAX_LINKS */
+    int32_t num_supports;                    /* 3 to LH_MAX_SUPPORTS */
     lh_actuator actuators[LH_MAX_ACTUATORS]; /* [num_actuators], crawlers first */
     lh_link links[LH_MAX_LINKS];             /* [num_links], each after its parent */
     lh_support supports[LH_MAX_SUPPORTS];    /* [num_supports] */
