@@ -1,0 +1,164 @@
+#include "command_line.h"
+
+#include <getopt.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MAX_ASSIGNMENTS = 64 };
+
+enum option_code {
+    CONFIG = 256,
+    SET,
+    ROBOT,
+    LCM_URL,
+    OUT,
+    EVALUATE,
+    RESUME,
+    HELP,
+    HELP_SETTINGS,
+    PRINT_SETTINGS,
+    VERSION
+};
+
+/* Options of the controller alone come last, so that the simulator's list is the same one cut short. */
+static const struct option controller_options[] = {
+    {"config", required_argument, NULL, CONFIG},
+    {"set", required_argument, NULL, SET},
+    {"robot", required_argument, NULL, ROBOT},
+    {"lcm-url", required_argument, NULL, LCM_URL},
+    {"help", no_argument, NULL, HELP},
+    {"help-settings", no_argument, NULL, HELP_SETTINGS},
+    {"print-settings", no_argument, NULL, PRINT_SETTINGS},
+    {"version", no_argument, NULL, VERSION},
+    {"out", required_argument, NULL, OUT},
+    {"resume", no_argument, NULL, RESUME},
+    {"evaluate", required_argument, NULL, EVALUATE},
+    {NULL, 0, NULL, 0},
+};
+enum { SHARED_OPTIONS = 8 };
+
+static const char shared_help[] =
+    "  --config FILE            settings of the experiment (INI); without it, the paper's\n"
+    "  --set section.key=value  one setting, over those of the file; may be repeated\n"
+    "  --robot FILE             the robot (URDF); default config/crawler.urdf\n"
+    "  --lcm-url URL            bus to talk on, such as udpm://239.255.76.67:7667?ttl=0\n"
+    "  --print-settings         print all settings as resolved, as an INI file, and exit\n"
+    "  --help-settings          print every setting with range, default and meaning, and exit\n"
+    "  --version                print the version and exit\n"
+    "  --help                   print this and exit\n";
+
+static const char controller_help[] =
+    "  --out DIR                write the run folder: episodes.csv, policy.lcm, checkpoint/, messages.lcmlog\n"
+    "  --resume                 go on from the newest checkpoint in DIR\n"
+    "  --evaluate POLICY        drive with a learned policy, greedily and without learning\n";
+
+static const char *program_name(command_line_program program) {
+    return program == COMMAND_LINE_CONTROLLER ? "limphome-controller" : "limphome-simulator";
+}
+
+static void print_help(command_line_program program) {
+    const bool controller = program == COMMAND_LINE_CONTROLLER;
+    printf("%s: %s\n\nusage: %s [options]\n\n%s%s\nSIGINT and SIGTERM end it cleanly.\n", program_name(program),
+           controller ? "learns to move a robot with a failed crawler, or moves it with what was learned"
+                      : "simulates the robot behind the messages a real one would speak",
+           program_name(program), shared_help, controller ? controller_help : "");
+}
+
+/* Applies the file and the assignments, in this order wherever they stood; says what is wrong on stderr. */
+static command_line_result resolve(settings *s, const char *config, char *const *assignments, int count) {
+    char error[SETTINGS_ERROR_LENGTH];
+    *s = settings_default();
+    bool good = config == NULL || settings_read(s, config, error) == 0;
+    for (int i = 0; i < count && good; i++) {
+        good = settings_set(s, assignments[i], error) == 0;
+    }
+    good = good && settings_check(s, error) == 0;
+    if (!good) {
+        fprintf(stderr, "%s\n", error);
+    }
+    return good ? COMMAND_LINE_RUN : COMMAND_LINE_BAD;
+}
+
+/* Whether the options fit together; says what is wrong on stderr. */
+static command_line_result check(const command_line *line) {
+    if (line->resume && line->out == NULL) {
+        fprintf(stderr, "--resume: needs --out, the run folder to go on with\n");
+        return COMMAND_LINE_BAD;
+    }
+    if (line->resume && line->evaluate != NULL) {
+        fprintf(stderr, "--resume and --evaluate do not go together\n");
+        return COMMAND_LINE_BAD;
+    }
+    return COMMAND_LINE_RUN;
+}
+
+command_line_result command_line_parse(int argc, char **argv, command_line_program program, command_line *line) {
+    struct option options[sizeof controller_options / sizeof controller_options[0]];
+    memcpy(options, controller_options, sizeof options);
+    if (program == COMMAND_LINE_SIMULATOR) {
+        memset(&options[SHARED_OPTIONS], 0, sizeof options[0]);
+    }
+    memset(line, 0, sizeof *line);
+    line->robot = "config/crawler.urdf";
+    const char *config = NULL;
+    char *assignments[MAX_ASSIGNMENTS];
+    int count = 0;
+    bool print_settings = false;
+
+    for (int code; (code = getopt_long(argc, argv, "", options, NULL)) != -1;) {
+        switch (code) {
+            case CONFIG:
+                config = optarg;
+                break;
+            case SET:
+                if (count == MAX_ASSIGNMENTS) {
+                    fprintf(stderr, "--set: at most %d of them\n", MAX_ASSIGNMENTS);
+                    return COMMAND_LINE_BAD;
+                }
+                assignments[count++] = optarg;
+                break;
+            case ROBOT:
+                line->robot = optarg;
+                break;
+            case LCM_URL:
+                line->lcm_url = optarg;
+                break;
+            case OUT:
+                line->out = optarg;
+                break;
+            case EVALUATE:
+                line->evaluate = optarg;
+                break;
+            case RESUME:
+                line->resume = true;
+                break;
+            case PRINT_SETTINGS:
+                print_settings = true;
+                break;
+            case HELP:
+                print_help(program);
+                return COMMAND_LINE_DONE;
+            case HELP_SETTINGS:
+                settings_describe(stdout);
+                return COMMAND_LINE_DONE;
+            case VERSION:
+                printf("%s %s\n", program_name(program), LIMPHOME_VERSION);
+                return COMMAND_LINE_DONE;
+            default: /* getopt_long has said what is wrong */
+                fprintf(stderr, "try %s --help\n", program_name(program));
+                return COMMAND_LINE_BAD;
+        }
+    }
+    if (optind < argc) {
+        fprintf(stderr, "%s: not an option; try %s --help\n", argv[optind], program_name(program));
+        return COMMAND_LINE_BAD;
+    }
+    if (resolve(&line->settings, config, assignments, count) != COMMAND_LINE_RUN || check(line) != COMMAND_LINE_RUN) {
+        return COMMAND_LINE_BAD;
+    }
+    if (print_settings) {
+        settings_write(&line->settings, stdout);
+        return COMMAND_LINE_DONE;
+    }
+    return COMMAND_LINE_RUN;
+}

@@ -1,0 +1,37 @@
+/* The command line that both programs share: --config, --set, --robot, --lcm-url and what prints and exits. */
+#ifndef LIMPHOME_COMMAND_LINE_H
+#define LIMPHOME_COMMAND_LINE_H
+
+#include <stdbool.h>
+
+#include "settings.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct command_line {
+    settings settings;    /* as resolved: defaults, then --config, then each --set */
+    const char *robot;    /* --robot, a URDF file */
+    const char *lcm_url;  /* --lcm-url; NULL: LCM's own default, which follows LCM_DEFAULT_URL */
+    const char *out;      /* controller: --out, the run folder, or NULL */
+    const char *evaluate; /* controller: --evaluate, a policy file, or NULL */
+    bool resume;          /* controller: --resume */
+} command_line;
+
+/* Which program asks. */
+typedef enum command_line_program { COMMAND_LINE_CONTROLLER, COMMAND_LINE_SIMULATOR } command_line_program;
+
+typedef enum command_line_result {
+    COMMAND_LINE_RUN,  /* go on */
+    COMMAND_LINE_DONE, /* what was asked for has been printed: exit 0 */
+    COMMAND_LINE_BAD   /* an error has been printed: exit 2 */
+} command_line_result;
+
+/* Reads argv into `line`, whose strings point into argv. */
+command_line_result command_line_parse(int argc, char **argv, command_line_program program, command_line *line);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
