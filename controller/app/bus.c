@@ -1,0 +1,183 @@
+#include "bus.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/random.h>
+#include <time.h>
+
+#include "limphome_reset_request_t.h"
+#include "messages.h"
+
+enum { LARGEST_MESSAGE = 16384 };
+
+double bus_now(void) {
+    return (double)bus_now_us() * 1e-6;
+}
+
+int64_t bus_now_us(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
+}
+
+/* Adds a message to the log under the wall-clock time, as lcm-logger would. */
+static void record(bus *b, const char *channel, void *data, int size) {
+    if (b->log == NULL) {
+        return;
+    }
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    char name[64];
+    snprintf(name, sizeof name, "%s", channel);
+    lcm_eventlog_event_t event = {
+        .timestamp = (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000,
+        .channellen = (int32_t)strlen(name),
+        .datalen = size,
+        .channel = name,
+        .data = data,
+    };
+    b->log_failed = lcm_eventlog_write_event(b->log, &event) != 0 || b->log_failed;
+}
+
+static void receive_state(const lcm_recv_buf_t *buffer, const char *channel, void *user) {
+    (void)channel;
+    bus *b = user;
+    limphome_robot_state_t state;
+    b->counts.received++;
+    switch (message_decode_state(buffer->data, buffer->data_size, &state)) {
+        case MESSAGE_GOOD:
+            b->counts.duplicates += b->fresh; /* the one not taken is overtaken */
+            b->newest = state;
+            b->fresh = true;
+            break;
+        case MESSAGE_NON_FINITE:
+            b->counts.rejected_non_finite++;
+            break;
+        case MESSAGE_MALFORMED:
+        default:
+            b->counts.rejected_malformed++;
+            break;
+    }
+}
+
+/* The plant's status is kept in the log beside ours. */
+static void receive_status(const lcm_recv_buf_t *buffer, const char *channel, void *user) {
+    limphome_status_t status;
+    const int size = limphome_status_t_decode(buffer->data, 0, (int)buffer->data_size, &status);
+    if (size == (int)buffer->data_size && status.process == LIMPHOME_STATUS_T_PLANT) {
+        record(user, channel, buffer->data, size);
+    }
+}
+
+bool bus_open(bus *b, const char *url, const char *log_path, bool append) {
+    memset(b, 0, sizeof *b);
+    b->lcm = lcm_create(url);
+    if (b->lcm == NULL) {
+        fprintf(stderr,
+                "%s: cannot join the bus; is the multicast group routed? (ip route add 239.255.76.67/32 dev lo)\n",
+                url == NULL ? "default LCM URL" : url);
+        return false;
+    }
+    if (lcm_subscribe(b->lcm, "LIMPHOME_STATE", receive_state, b) == NULL ||
+        lcm_subscribe(b->lcm, "LIMPHOME_STATUS", receive_status, b) == NULL) {
+        fprintf(stderr, "the bus does not let us listen; is a firewall in the way?\n");
+        lcm_destroy(b->lcm);
+        return false;
+    }
+    if (log_path != NULL && (b->log = lcm_eventlog_create(log_path, append ? "a" : "w")) == NULL) {
+        fprintf(stderr, "%s: cannot be written: %s\n", log_path, strerror(errno));
+        lcm_destroy(b->lcm);
+        return false;
+    }
+    return getrandom(&b->sender, sizeof b->sender, 0) == (ssize_t)sizeof b->sender;
+}
+
+bool bus_close(bus *b) {
+    lcm_destroy(b->lcm);
+    if (b->log != NULL) {
+        b->log_failed = fflush(b->log->f) != 0 || b->log_failed;
+        lcm_eventlog_destroy(b->log);
+    }
+    return !b->log_failed;
+}
+
+/* Whether a message can be handled without waiting longer than `milliseconds`; -1 on an error other than a signal. */
+static int readable(bus *b, int milliseconds) {
+    struct pollfd waiting = {.fd = lcm_get_fileno(b->lcm), .events = POLLIN};
+    const int count = poll(&waiting, 1, milliseconds);
+    return count < 0 && errno == EINTR ? 0 : count;
+}
+
+bool bus_wait(bus *b, double timeout) {
+    const double begin = bus_now();
+    int ready = readable(b, (int)(timeout * 1000));
+    b->wait_time += bus_now() - begin;
+    for (; ready > 0; ready = readable(b, 0)) {
+        if (lcm_handle(b->lcm) != 0) {
+            return false;
+        }
+    }
+    return ready == 0;
+}
+
+bool bus_take(bus *b, limphome_robot_state_t *state) {
+    if (!b->fresh) {
+        return false;
+    }
+    b->fresh = false;
+    *state = b->newest;
+    return true;
+}
+
+/* Encodes a message of any of our types into `bytes` and names its size; then `send` puts it on the bus. */
+#define ENCODE(type, message, bytes) limphome_##type##_encode(bytes, 0, (int)sizeof bytes, message)
+
+static void send(bus *b, const char *channel, unsigned char *bytes, int size, bool recorded) {
+    if (size > 0) {
+        lcm_publish(b->lcm, channel, bytes, (unsigned int)size);
+    }
+    if (size > 0 && recorded) {
+        record(b, channel, bytes, size);
+    }
+}
+
+void bus_record_state(bus *b, const limphome_robot_state_t *state) {
+    unsigned char bytes[LARGEST_MESSAGE];
+    record(b, "LIMPHOME_STATE", bytes, ENCODE(robot_state_t, state, bytes));
+}
+
+void bus_send_command(bus *b, const limphome_velocity_command_t *command, bool repeats) {
+    unsigned char bytes[LARGEST_MESSAGE];
+    b->counts.resent += repeats;
+    send(b, "LIMPHOME_COMMAND", bytes, ENCODE(velocity_command_t, command, bytes), !repeats);
+}
+
+void bus_send_reset(bus *b, int64_t session, int64_t seq, bool repeats) {
+    const limphome_reset_request_t request = {
+        .utime = bus_now_us(), .session = session, .seq = seq, .sender = b->sender};
+    unsigned char bytes[LARGEST_MESSAGE];
+    b->counts.resent += repeats;
+    send(b, "LIMPHOME_RESET", bytes, ENCODE(reset_request_t, &request, bytes), !repeats);
+}
+
+void bus_send_decision(bus *b, const limphome_decision_t *decision) {
+    unsigned char bytes[LARGEST_MESSAGE];
+    send(b, "LIMPHOME_DECISION", bytes, ENCODE(decision_t, decision, bytes), true);
+}
+
+void bus_send_episode(bus *b, const limphome_episode_t *episode) {
+    unsigned char bytes[LARGEST_MESSAGE];
+    send(b, "LIMPHOME_EPISODE", bytes, ENCODE(episode_t, episode, bytes), true);
+}
+
+void bus_send_policy(bus *b, const limphome_policy_t *policy) {
+    unsigned char bytes[LARGEST_MESSAGE];
+    send(b, "LIMPHOME_POLICY", bytes, ENCODE(policy_t, policy, bytes), true);
+}
+
+void bus_send_status(bus *b, const limphome_status_t *status) {
+    unsigned char bytes[LARGEST_MESSAGE];
+    send(b, "LIMPHOME_STATUS", bytes, ENCODE(status_t, status, bytes), true);
+}

@@ -1,0 +1,60 @@
+/* The bus: LCM in and out, with every message checked on entry and counted, and a record of all that was taken or sent.
+ */
+#ifndef LIMPHOME_APP_BUS_H
+#define LIMPHOME_APP_BUS_H
+
+#include <lcm/eventlog.h>
+#include <lcm/lcm.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "limphome_decision_t.h"
+#include "limphome_episode_t.h"
+#include "limphome_policy_t.h"
+#include "limphome_robot_state_t.h"
+#include "limphome_status_t.h"
+#include "limphome_velocity_command_t.h"
+
+/* Owns the bus and the log from bus_open to bus_close. */
+typedef struct bus {
+    lcm_t *lcm;
+    lcm_eventlog_t *log; /* NULL: nothing is recorded */
+    bool log_failed;     /* a write to the log failed */
+    int64_t sender;      /* random per life */
+
+    bool fresh;                    /* `newest` has not been taken yet */
+    limphome_robot_state_t newest; /* newest good state heard */
+    limphome_status_t counts;      /* the counters of LIMPHOME_STATUS that are counted here */
+    double wait_time;              /* spent in bus_wait [s] */
+} bus;
+
+/* Joins the bus at `url` (NULL: LCM's default) and opens `log_path` (NULL: none), adding to it if `append`.
+ * False, with the reason on stderr, on failure. */
+bool bus_open(bus *b, const char *url, const char *log_path, bool append);
+
+/* Leaves the bus and closes the log. False if the log is not complete. */
+bool bus_close(bus *b);
+
+/* Waits at most `timeout` [s] for messages and takes in all that are there. False if the bus is broken. */
+bool bus_wait(bus *b, double timeout);
+
+/* Hands out the newest state heard since the last call; false if there is none. */
+bool bus_take(bus *b, limphome_robot_state_t *state);
+
+/* Adds a state that is acted upon to the log. */
+void bus_record_state(bus *b, const limphome_robot_state_t *state);
+
+/* Each publishes and records. A command or reset that `repeats` an earlier one is counted as resent and not recorded.
+ */
+void bus_send_command(bus *b, const limphome_velocity_command_t *command, bool repeats);
+void bus_send_reset(bus *b, int64_t session, int64_t seq, bool repeats);
+void bus_send_decision(bus *b, const limphome_decision_t *decision);
+void bus_send_episode(bus *b, const limphome_episode_t *episode);
+void bus_send_policy(bus *b, const limphome_policy_t *policy);
+void bus_send_status(bus *b, const limphome_status_t *status);
+
+/* Monotonic clock [s], and the same in whole microseconds as messages carry it. */
+double bus_now(void);
+int64_t bus_now_us(void);
+
+#endif

@@ -1,0 +1,36 @@
+/* Between the library's structs and what is outside: settings, messages, files. */
+#ifndef LIMPHOME_APP_CONVERT_H
+#define LIMPHOME_APP_CONVERT_H
+
+#include <stdbool.h>
+
+#include "limphome/controller.h"
+#include "limphome_checkpoint_t.h"
+#include "limphome_decision_t.h"
+#include "limphome_episode_t.h"
+#include "limphome_policy_t.h"
+#include "limphome_robot_state_t.h"
+#include "settings.h"
+
+/* The library's configuration for an experiment. */
+lh_config convert_config(const settings *s);
+
+/* What the sensors tell, in single precision. */
+lh_state convert_state(const limphome_robot_state_t *message);
+
+/* Actuators that obey, fully or weakly. */
+lh_controlled convert_controlled(const limphome_robot_state_t *message);
+
+/* Telemetry of one decision, taken on `state`. */
+limphome_decision_t convert_decision(const lh_decision *decision, const limphome_robot_state_t *state);
+limphome_episode_t convert_episode(const lh_summary *summary, const limphome_robot_state_t *state,
+                                   double decision_period);
+
+/* The network and what is needed to use it, after `episode` finished episodes. */
+limphome_policy_t convert_policy(const lh_controller *controller, int32_t episode, int64_t utime);
+
+/* The network of a policy. False if the policy is for other actuators, speeds or input ranges than the controller's,
+ * or has another number of units: it would not mean the same. */
+bool convert_network(const limphome_policy_t *policy, const lh_controller *controller, lh_network *network);
+
+#endif

@@ -1,0 +1,39 @@
+/* limphome-controller: the process around the library. Exit 0: all episodes done; 130: stopped by a signal;
+ * 1: something went wrong on the way; 2: bad input, nothing was started. */
+#include <signal.h>
+#include <stdio.h>
+
+#include "command_line.h"
+#include "experiment.h"
+
+static volatile sig_atomic_t stop;
+
+static void on_signal(int number) {
+    stop = number;
+}
+
+int main(int argc, char **argv) {
+    enum { DONE = 0, WENT_WRONG = 1, BAD_INPUT = 2, STOPPED = 130 };
+    command_line line;
+    const command_line_result result = command_line_parse(argc, argv, COMMAND_LINE_CONTROLLER, &line);
+    if (result != COMMAND_LINE_RUN) {
+        return result == COMMAND_LINE_DONE ? DONE : BAD_INPUT;
+    }
+    const struct sigaction action = {.sa_handler = on_signal};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+
+    static experiment e; /* too large for a comfortable stack frame */
+    if (!experiment_open(&e, &line)) {
+        return BAD_INPUT;
+    }
+    const bool complete = experiment_run(&e, &stop);
+    if (!experiment_close(&e, complete)) {
+        return WENT_WRONG;
+    }
+    if (!complete && stop != 0) {
+        fprintf(stderr, "stopped after episode %d\n", e.finished);
+        return STOPPED;
+    }
+    return complete ? DONE : WENT_WRONG;
+}

@@ -1,0 +1,87 @@
+#include "messages.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdbool.h>
+
+#include "limphome/capacity.h"
+
+enum { WIRE_ACTUATORS = 8, WIRE_UNITS = 64, WIRE_INPUTS = 18 };
+_Static_assert(LH_MAX_ACTUATORS <= WIRE_ACTUATORS, "robot_state_t carries 8 actuators");
+_Static_assert(LH_MAX_UNITS <= WIRE_UNITS, "policy_t carries 64 units");
+_Static_assert(LH_MAX_INPUTS <= WIRE_INPUTS, "policy_t carries 18 inputs");
+
+static bool finite_doubles(const double *values, int count) {
+    bool finite = true;
+    for (int i = 0; i < count; i++) {
+        finite = finite && isfinite(values[i]);
+    }
+    return finite;
+}
+
+static bool finite_floats(const float *values, int count) {
+    bool finite = true;
+    for (int i = 0; i < count; i++) {
+        finite = finite && isfinite(values[i]);
+    }
+    return finite;
+}
+
+static bool within(int32_t value, int32_t low, int32_t high) {
+    return value >= low && value <= high;
+}
+
+message_verdict message_decode_state(const void *data, size_t size, limphome_robot_state_t *state) {
+    if (size > INT_MAX || limphome_robot_state_t_decode(data, 0, (int)size, state) != (int)size ||
+        !within(state->num_actuators, 1, WIRE_ACTUATORS)) {
+        return MESSAGE_MALFORMED;
+    }
+    const bool finite = finite_doubles(state->position, 3) && finite_doubles(state->orientation, 4) &&
+                        finite_doubles(state->actuator_position, state->num_actuators) &&
+                        finite_doubles(state->actuator_velocity, state->num_actuators) &&
+                        finite_doubles(state->actuator_effort, state->num_actuators);
+    return finite ? MESSAGE_GOOD : MESSAGE_NON_FINITE;
+}
+
+/* Counts within the wire's arrays, every value used finite. */
+static message_verdict check_policy(const limphome_policy_t *policy) {
+    if (!within(policy->num_actuators, 1, WIRE_ACTUATORS) ||
+        !within(policy->num_controlled, 1, policy->num_actuators) || !within(policy->num_units, 1, WIRE_UNITS) ||
+        policy->num_inputs != 2 * policy->num_controlled + 2 || policy->episode < 0) {
+        return MESSAGE_MALFORMED;
+    }
+    bool finite = finite_floats(policy->weight, policy->num_units) && finite_floats(policy->width, policy->num_units) &&
+                  finite_floats(policy->speed, policy->num_controlled) &&
+                  finite_floats(policy->input_low, policy->num_controlled) &&
+                  finite_floats(policy->input_high, policy->num_controlled);
+    for (int j = 0; j < policy->num_units; j++) {
+        finite = finite && finite_floats(policy->centre[j], policy->num_inputs);
+    }
+    return finite ? MESSAGE_GOOD : MESSAGE_NON_FINITE;
+}
+
+message_verdict message_decode_policy(const void *data, size_t size, limphome_policy_t *policy) {
+    if (size > INT_MAX || limphome_policy_t_decode(data, 0, (int)size, policy) != (int)size) {
+        return MESSAGE_MALFORMED;
+    }
+    return check_policy(policy);
+}
+
+message_verdict message_decode_checkpoint(const void *data, size_t size, limphome_checkpoint_t *checkpoint) {
+    if (size > INT_MAX || limphome_checkpoint_t_decode(data, 0, (int)size, checkpoint) != (int)size) {
+        return MESSAGE_MALFORMED;
+    }
+    return check_policy(&checkpoint->policy);
+}
+
+const char *message_verdict_text(message_verdict verdict) {
+    switch (verdict) {
+        case MESSAGE_GOOD:
+            return "good";
+        case MESSAGE_NON_FINITE:
+            return "holds NaN or infinity";
+        case MESSAGE_MALFORMED:
+        default:
+            return "is of another type, length or count";
+    }
+}

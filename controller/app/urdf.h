@@ -1,0 +1,22 @@
+/* The robot's URDF, read with expat into the library's plain struct. */
+#ifndef LIMPHOME_APP_URDF_H
+#define LIMPHOME_APP_URDF_H
+
+#include <stdint.h>
+
+#include "limphome/robot.h"
+
+enum { URDF_NAME_LENGTH = 48, URDF_ERROR_LENGTH = 512 };
+
+/* The robot and what only the process around the library needs to know of it. */
+typedef struct urdf_robot {
+    lh_robot robot;
+    char actuator_name[LH_MAX_ACTUATORS][URDF_NAME_LENGTH]; /* names of the joints */
+    uint64_t hash;                                          /* of the file's bytes (FNV-1a) */
+} urdf_robot;
+
+/* Reads links, joints and the <limphome> element: crawlers (left, right), arm joints from root to tip, supports and
+ * tip. 0 on success; else -1, nothing changed, and a text with file, line and element in `error`. */
+int urdf_read(urdf_robot *robot, const char *path, char error[URDF_ERROR_LENGTH]);
+
+#endif
