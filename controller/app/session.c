@@ -9,13 +9,12 @@ void session_reset(session_tracker *tracker) {
 }
 
 /* A session we have not heard of. It is the answer to our reset, or the plant was restarted. */
-static session_verdict judge_other(session_tracker *tracker, int64_t session, int64_t seq, double now) {
-    if (tracker->resetting && seq == 0) {
+static session_verdict judge_other(session_tracker *tracker, int64_t session, int64_t seq, bool lockstep, double now) {
+    if (tracker->resetting && (seq == 0 || !lockstep)) {
         tracker->session = session;
-        tracker->seq = 0;
+        tracker->seq = seq;
         tracker->heard = now;
         tracker->resetting = false;
-        tracker->begun = true;
         return SESSION_NEW;
     }
     if (now - tracker->heard < tracker->timeout) {
@@ -35,7 +34,7 @@ session_verdict session_judge(session_tracker *tracker, int64_t session, int64_t
         return SESSION_RESET;
     }
     if (session != tracker->session) {
-        return judge_other(tracker, session, seq, now);
+        return judge_other(tracker, session, seq, lockstep, now);
     }
     tracker->heard = now;
     if (tracker->resetting) {

@@ -20,7 +20,6 @@ typedef struct session_tracker {
     double timeout; /* silence of our session after which another one is taken up [s] */
     bool known;     /* a plant has been heard */
     bool resetting; /* a reset of `session` has been asked for */
-    bool begun;     /* a state of `session` has been answered */
     bool restarted; /* the newest session began without our asking; cleared by the caller */
     int64_t session;
     int64_t seq;  /* newest answered */

@@ -1,0 +1,52 @@
+// limphome-simulator: a robot in Bullet behind the messages a real one would speak.
+// Exit 0: stopped by a signal; 1: something went wrong on the way; 2: bad input, nothing was started.
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <optional>
+
+#include "command_line.h"
+#include "link.h"
+#include "plant.h"
+#include "robot_model.h"
+#include "world.h"
+
+namespace {
+
+volatile std::sig_atomic_t stop = 0;
+
+void on_signal(int number) {
+    stop = number;
+}
+
+}  // namespace
+
+int main(int argc, char **argv) {
+    enum { done = 0, went_wrong = 1, bad_input = 2 };
+    command_line line;
+    const command_line_result result = command_line_parse(argc, argv, COMMAND_LINE_SIMULATOR, &line);
+    if (result != COMMAND_LINE_RUN) {
+        return result == COMMAND_LINE_DONE ? done : bad_input;
+    }
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+
+    std::optional<limphome::World> world;
+    std::optional<limphome::Link> link;
+    try {
+        const limphome::RobotModel model = limphome::read_robot(line.robot);
+        world.emplace(model, line.settings);
+        link.emplace(line.lcm_url == nullptr ? "" : line.lcm_url, line.settings, world->num_actuators());
+    } catch (const std::exception &error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return bad_input;
+    }
+    try {
+        return limphome::Plant(*world, *link, line.settings).run(&stop) ? done : went_wrong;
+    } catch (const std::exception &error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return went_wrong;
+    }
+}

@@ -1,0 +1,135 @@
+#include "plant.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "sensors.h"
+#include "truth.h"
+
+namespace limphome {
+
+namespace {
+
+constexpr double kRampSeconds = 0.5;     // from the last obeyed speed to rest
+constexpr double kRealTimeSlice = 0.01;  // the clock is followed this finely [s]
+
+}  // namespace
+
+Plant::Plant(World &world, Link &link, const settings &s)
+    : world_(world), link_(link), settings_(s), started_(monotonic_now()) {}
+
+bool Plant::run(const volatile std::sig_atomic_t *stop) {
+    const bool lockstep = settings_.simulator.pace == SETTINGS_LOCKSTEP;
+    begin();
+    while (*stop == 0) {
+        if (link_.reset_requested()) {
+            world_.reset();
+            link_.begin_session();
+            begin();
+        } else if (lockstep ? advance_lockstep() : advance_real_time()) {
+            decisions_++;
+            simulated_ += settings_.episode.decision_period_s;
+            publish();
+        }
+        if (!world_.finite()) {
+            std::fprintf(stderr, "the simulation diverged at %.3f s\n", world_.time());
+            report(status_t::FAULT);
+            return false;
+        }
+        report_each_second();
+    }
+    report(status_t::FINISHED);
+    return true;
+}
+
+void Plant::begin() {
+    obeyed_ = velocity_command_t{};
+    obeyed_at_ = clock_ = monotonic_now();
+    world_.command(obeyed_.velocity);
+    publish();
+}
+
+void Plant::publish() {
+    robot_state_t state{};
+    read_sensors(world_, state);
+    state.utime = std::llround(world_.time() * 1e6);
+    link_.send_state(state);
+    ground_truth_t truth{};
+    read_truth(world_, truth);
+    link_.send_truth(truth);
+}
+
+bool Plant::advance_lockstep() {
+    link_.wait(settings_.link.resend_s);
+    const auto command = link_.take_command();
+    if (!command) {
+        if (!link_.reset_requested()) {
+            link_.resend_state();
+        }
+        return false;
+    }
+    world_.command(command->velocity);
+    world_.advance();
+    return true;
+}
+
+void Plant::obey() {
+    const double now = monotonic_now();
+    if (const auto command = link_.take_command()) {
+        obeyed_ = *command;
+        obeyed_at_ = now;
+    }
+    const double too_old = now - obeyed_at_ - settings_.link.command_timeout_s;
+    const double share = std::clamp(1 - too_old / kRampSeconds, 0.0, 1.0);
+    late_ += share < 1 ? 1 : 0;
+    double velocity[8];
+    std::transform(obeyed_.velocity, obeyed_.velocity + 8, velocity, [share](double v) { return v * share; });
+    world_.command(velocity);
+}
+
+bool Plant::advance_real_time() {
+    const double period = settings_.episode.decision_period_s;
+    const double step = settings_.simulator.time_step_s;
+    const long steps = std::lround(period / step);
+    const long slice = std::max(1L, std::lround(kRealTimeSlice / step));
+    for (long done = 0; done < steps;) {
+        obey();
+        for (const long end = std::min(steps, done + slice); done < end; done++) {
+            world_.step();
+        }
+        for (double ahead; (ahead = clock_ + static_cast<double>(done) * step - monotonic_now()) > 0;) {
+            link_.wait(ahead);
+        }
+        if (link_.reset_requested()) {
+            return false;
+        }
+    }
+    clock_ += period;
+    return true;
+}
+
+void Plant::report(int8_t condition) {
+    status_t status = link_.counts();
+    const double now = monotonic_now();
+    status.utime = std::llround(now * 1e6);
+    status.process = status_t::PLANT;
+    status.condition = condition;
+    status.seq = link_.seq();
+    status.wall_time = now - started_;
+    status.wait_time = link_.wait_time();
+    status.simulated_time = simulated_;
+    status.decisions = decisions_;
+    status.late = late_;
+    status.saturated = world_.saturated();
+    link_.send_status(status);
+}
+
+void Plant::report_each_second() {
+    if (monotonic_now() >= report_due_) {
+        report(decisions_ == 0 ? status_t::WAITING : status_t::RUNNING);
+        report_due_ = monotonic_now() + 1;
+    }
+}
+
+}  // namespace limphome

@@ -1,0 +1,41 @@
+// The plant: the simulated world behind the link, in lockstep with the controller or in real time.
+#pragma once
+
+#include <csignal>
+
+#include "link.h"
+#include "settings.h"
+#include "world.h"
+
+namespace limphome {
+
+class Plant {
+   public:
+    Plant(World &world, Link &link, const settings &s);
+
+    // Runs until *stop is not 0. False if the world diverged, which has been reported.
+    bool run(const volatile std::sig_atomic_t *stop);
+
+   private:
+    void begin();              // new session from the initial pose
+    void publish();            // state and truth
+    bool advance_lockstep();   // waits for the command that answers the newest state, then one decision period
+    bool advance_real_time();  // follows the clock to the end of the decision period, obeying commands as they come
+    void obey();               // takes over a fresh command, or ramps to rest when the last one is too old
+    void report(int8_t condition);
+    void report_each_second();
+
+    World &world_;
+    Link &link_;
+    const settings settings_;
+    const double started_;
+    double clock_ = 0;      // real time: when the present decision period began [s, monotonic]
+    double obeyed_at_ = 0;  // when the newest command came [s, monotonic]
+    velocity_command_t obeyed_{};
+    double report_due_ = 0;  // [s, monotonic]
+    int64_t decisions_ = 0;
+    int64_t late_ = 0;
+    double simulated_ = 0;  // in all sessions [s]
+};
+
+}  // namespace limphome
