@@ -23,6 +23,7 @@
 #include "limphome/observation.h"
 #include "limphome/reward.h"
 #include "limphome/robot.h"
+#include "limphome/stability.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -65,13 +66,13 @@ typedef struct lh_decision {
     lh_summary summary; /* valid if ended */
 
     /* this state */
-    int32_t episode;        /* running episode, from 1 */
+    int32_t episode;        /* running episode, from 1; with `reset`, the one that has just ended */
     int32_t step;           /* decisions before this one in the running episode */
     float stability_margin; /* S_NE of (11) [m] */
     float goal_distance;    /* to the goal line of the running episode [m] */
     float lateral_error;    /* from the straight line of the running episode, positive to the left [m] */
     int32_t num_inputs;
-    float inputs[LH_MAX_INPUTS]; /* of the network: states, roll, pitch, then the chosen action */
+    float inputs[LH_MAX_INPUTS]; /* of the network: states, roll, pitch, then (unless `reset`) the action */
 
     /* what to do now */
     bool reset; /* put the robot into its initial pose; nothing below is set */
@@ -88,7 +89,7 @@ typedef struct lh_controller {
     lh_episode episode;
     /* the step under way */
     bool acting;                       /* an action was chosen and its result is awaited */
-    bool awaiting_reset;               /* the next state is that of the initial pose */
+    bool awaiting_reset;               /* episode.number begins at the next state, in the initial pose */
     int32_t action;                    /* chosen joint action */
     lh_pose2 pose;                     /* where it was chosen */
     float inputs[LH_MAX_STATE_INPUTS]; /* state inputs there */
@@ -107,13 +108,16 @@ lh_error lh_controller_init(lh_controller *controller, const lh_config *config, 
                             const lh_controlled *controlled);
 
 /* Goes on from what was learned before: takes over network and random state, and begins with episode `episode`
- * (from 1) at the next state. On an error nothing is changed. */
+ * (1 to 1000000000) at the next state. Restored where a reset was asked for, it goes on bit by bit as if unbroken.
+ * On an error nothing is changed. */
 lh_error lh_controller_restore(lh_controller *controller, const lh_network *network, const uint32_t random_state[4],
                                int32_t episode);
 
 /* One decision. LH_ERROR_STATE, and nothing changed, if the state is not valid: hold still and call again.
  * An episode that ends on the goal line or by the time limit is followed by the next from where the robot is, unless
- * its number is a multiple of config.episode.reset_every; then, and after a tumble, `reset` is asked for. */
+ * its number is a multiple of config.episode.reset_every; then, and after a tumble, `reset` is asked for.
+ * Learning, max over a of Q(s, a) in (1) is that of the network before it learns; the choice is made by the network
+ * after. */
 lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh_decision *decision);
 
 /* The robot has been put into its initial pose without being asked to (a plant that restarted, say): the step under

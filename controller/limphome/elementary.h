@@ -4,6 +4,9 @@
 #ifndef LIMPHOME_ELEMENTARY_H
 #define LIMPHOME_ELEMENTARY_H
 
+#include <float.h>
+#include <stdbool.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -17,21 +20,28 @@ float lh_exp(float x);
  * log(0) is -infinity, of a negative number NaN. */
 float lh_log(float x);
 
-/* Sine and cosine; absolute error below 2e-7 for |x| up to 8192 rad. NaN for infinity. */
+/* Sine and cosine; absolute error below 2e-7 for |x| up to 8192 rad, NaN beyond. */
 float lh_sin(float x);
 float lh_cos(float x);
 
 /* Angle of (x, y) in [-pi, pi]; absolute error below 4e-7; atan2(0, 0) is 0, signs of zero are not told apart. */
 float lh_atan2(float y, float x);
 
-/* Arc sine in [-pi/2, pi/2]; x is limited to [-1, 1] first; absolute error below 5e-7. */
-float lh_asin(float x);
-
 /* Square root, correctly rounded; NaN below 0. */
 float lh_sqrt(float x);
 
-/* x brought into (-pi, pi] by whole turns; for |x| up to 100 rad. */
+/* x brought into (-pi, pi] by whole turns; absolute error below 2e-7 for |x| up to 100 rad, NaN beyond 8192 rad. */
 float lh_wrap_angle(float x);
+
+/* Whether low <= x <= high; false for NaN. */
+static inline bool lh_within(float x, float low, float high) {
+    return x >= low && x <= high;
+}
+
+/* False for NaN and infinity. */
+static inline bool lh_finite(float x) {
+    return lh_within(x, -FLT_MAX, FLT_MAX);
+}
 
 #ifdef __cplusplus
 }

@@ -12,7 +12,7 @@ typedef enum lh_error {
     LH_ERROR_INPUTS,       /* number of inputs outside 1 to LH_MAX_INPUTS */
     LH_ERROR_RATE,         /* a learning rate or the discount rate is negative, too large or not finite */
     LH_ERROR_INITIAL,      /* an initial weight or width is out of range */
-    LH_ERROR_LIMIT,        /* width floor, weight limit or temperature floor is out of range */
+    LH_ERROR_LIMIT,        /* width floor, weight limit, temperature floor or support tolerance is out of range */
     LH_ERROR_REWARD,       /* a reward coefficient has the wrong sign or is not finite */
     LH_ERROR_EPISODE,      /* episode number below 1: T of (4) is not defined; or an episode setting is out of range */
     LH_ERROR_SPEED,        /* a speed of the action levels is not positive or not finite */

@@ -14,6 +14,10 @@
 extern "C" {
 #endif
 
+/* Bounds of what can be learned, far outside what is useful, so that no value can overflow. */
+#define LH_WIDTH_LIMIT 1000.0f  /* largest sigma_j */
+#define LH_CENTRE_LIMIT 1000.0f /* largest |mu_ij| */
+
 typedef struct lh_network_config {
     int32_t units;        /* 1 to LH_MAX_UNITS; paper: 50 */
     int32_t inputs;       /* 1 to LH_MAX_INPUTS; paper: 10 */
@@ -34,8 +38,8 @@ typedef struct lh_network {
     int32_t units;
     int32_t inputs;
     float weight[LH_MAX_UNITS];                /* w_j [units] */
-    float width[LH_MAX_UNITS];                 /* sigma_j [units], at least width_floor */
-    float centre[LH_MAX_UNITS][LH_MAX_INPUTS]; /* mu_ij [units][inputs] */
+    float width[LH_MAX_UNITS];                 /* sigma_j [units], width_floor to LH_WIDTH_LIMIT */
+    float centre[LH_MAX_UNITS][LH_MAX_INPUTS]; /* mu_ij [units][inputs], |.| up to LH_CENTRE_LIMIT */
 } lh_network;
 
 /* Table 2, with 50 units and 10 inputs. */

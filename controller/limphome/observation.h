@@ -35,8 +35,8 @@ void lh_observation_range(const lh_actuator *actuator, float *low, float *high);
 /* Fills inputs[controlled->count + 2]; returns how many values were limited to their range. `state` must be valid. */
 int32_t lh_observation(const lh_robot *robot, const lh_controlled *controlled, const lh_state *state, float *inputs);
 
-/* LH_OK, or LH_ERROR_STATE for NaN, infinity, |position| over 1e6 m, a quaternion whose length is not within 0.9 to
- * 1.1, or a number of actuators other than the robot's. */
+/* LH_OK, or LH_ERROR_STATE for NaN, infinity, |position| over 1e6 m, a joint angle over LH_ANGLE_LIMIT, a quaternion
+ * whose length is not within 0.9 to 1.1, or a number of actuators other than the robot's. */
 lh_error lh_state_validate(const lh_state *state, const lh_robot *robot);
 
 #ifdef __cplusplus

@@ -13,6 +13,11 @@
 extern "C" {
 #endif
 
+/* Largest magnitudes that make sense, so that no sum can overflow. */
+#define LH_ANGLE_LIMIT 100.0f   /* of a joint [rad] */
+#define LH_LENGTH_LIMIT 1000.0f /* of a coordinate or radius [m] */
+#define LH_MASS_LIMIT 1e6f      /* of a link [kg] */
+
 typedef enum lh_actuator_kind { LH_CRAWLER = 0, LH_JOINT = 1 } lh_actuator_kind;
 
 typedef struct lh_actuator {
@@ -22,6 +27,7 @@ typedef struct lh_actuator {
     float effort_limit; /* largest torque, above 0 [N*m] */
 } lh_actuator;
 
+/* Of link 0, parent and actuator are -1, and origin, rotation and axis are not read. */
 typedef struct lh_link {
     int32_t parent;   /* link it hangs on, less than its own index; -1 for link 0 only */
     int32_t actuator; /* joint that turns it about `axis`; -1: fixed to the parent (so are sprockets: turning them
@@ -48,7 +54,8 @@ typedef struct lh_robot {
     lh_support supports[LH_MAX_SUPPORTS];    /* [num_supports] */
 } lh_robot;
 
-/* LH_OK, or LH_ERROR_ACTUATORS or LH_ERROR_ROBOT where a rule above is broken; the total mass must be above 0. */
+/* LH_OK, or LH_ERROR_ACTUATORS or LH_ERROR_ROBOT where a rule above is broken or a magnitude above its limit; the total
+ * mass must be above 0. */
 lh_error lh_robot_validate(const lh_robot *robot);
 
 #ifdef __cplusplus
