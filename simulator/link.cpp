@@ -40,6 +40,7 @@ bool decode_exactly(const lcm::ReceiveBuffer *buffer, Message &message) {
 Link::Link(const std::string &url, const settings &s, int num_actuators)
     : lcm_(url),
       lockstep_(s.simulator.pace == SETTINGS_LOCKSTEP),
+      resend_(s.link.resend_s),
       sender_timeout_(s.link.sender_timeout_s),
       num_actuators_(num_actuators),
       sender_heard_(-std::numeric_limits<double>::infinity()) {
@@ -68,10 +69,15 @@ void Link::send_state(robot_state_t state) {
     state.seq = next_seq_++;
     state.lockstep = lockstep_ ? 1 : 0;
     state_ = state;
+    state_sent_ = monotonic_now();
     lcm_.publish("LIMPHOME_STATE", &state_);
 }
 
-void Link::resend_state() {
+void Link::resend_state_if_due() {
+    if (monotonic_now() - state_sent_ < resend_) {
+        return;
+    }
+    state_sent_ = monotonic_now();
     counts_.resent++;
     lcm_.publish("LIMPHOME_STATE", &state_);
 }

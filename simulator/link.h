@@ -26,9 +26,11 @@ class Link {
     // Begins a new session: forgets what was received, numbers states from 0 again.
     void begin_session();
 
-    // Puts the state of decision `seq` on the bus, filling in session and seq; and again with resend_state.
+    // Puts a new state on the bus, filling in session and seq.
     void send_state(robot_state_t state);
-    void resend_state();
+    // Puts the newest state on the bus again if it has been unanswered for the resend interval. Not at every message
+    // that does not answer it: a late repetition would then breed repetitions for ever.
+    void resend_state_if_due();
     void send_truth(ground_truth_t truth);
     void send_status(status_t status);
 
@@ -52,10 +54,12 @@ class Link {
 
     lcm::LCM lcm_;
     const bool lockstep_;
-    const double sender_timeout_;
+    const double resend_;          // [s]
+    const double sender_timeout_;  // [s]
     const int num_actuators_;
 
     robot_state_t state_{};  // newest state sent
+    double state_sent_ = 0;  // when [s, monotonic]
     int64_t next_seq_ = 0;
     int64_t session_ = 0;
     int64_t sender_ = 0;  // the one obeyed

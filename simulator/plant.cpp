@@ -65,7 +65,7 @@ bool Plant::advance_lockstep() {
     const auto command = link_.take_command();
     if (!command) {
         if (!link_.reset_requested()) {
-            link_.resend_state();
+            link_.resend_state_if_due();
         }
         return false;
     }

@@ -224,7 +224,7 @@ struct reading {
     int line;
     bool too_long;         /* the newest line did not fit inih's buffer */
     int set_at[KEY_COUNT]; /* line that set the key, 0 for none */
-    bool failed;
+    int failed_at;         /* line of the first error, 0 for none */
     char *error;
 };
 
@@ -235,17 +235,17 @@ static char *read_line(char *buffer, int size, void *stream) {
         reading->line++;
         reading->too_long = strchr(line, '\n') == NULL && !feof(reading->file);
     }
-    if (reading->too_long && !reading->failed) {
-        reading->failed = true;
+    if (reading->too_long && reading->failed_at == 0) {
+        reading->failed_at = reading->line;
         snprintf(reading->error, SETTINGS_ERROR_LENGTH, "%.200s:%d: line too long; at most %d characters",
                  reading->path, reading->line, size - 2);
     }
-    return reading->failed ? NULL : line;
+    return reading->failed_at != 0 ? NULL : line;
 }
 
 static int handle_pair(void *user, const char *section, const char *name, const char *value) {
     struct reading *reading = user;
-    if (reading->failed) {
+    if (reading->failed_at != 0) {
         return 1;
     }
     char place[256];
@@ -254,11 +254,11 @@ static int handle_pair(void *user, const char *section, const char *name, const 
     if (key != NULL && reading->set_at[key - keys] != 0) {
         snprintf(reading->error, SETTINGS_ERROR_LENGTH, "%s: [%s] %s: already set at line %d", place, section, name,
                  reading->set_at[key - keys]);
-        reading->failed = true;
+        reading->failed_at = reading->line;
         return 1;
     }
     if (set_key(reading->s, place, section, name, value, reading->error) != 0) {
-        reading->failed = true;
+        reading->failed_at = reading->line;
         return 1;
     }
     reading->set_at[key - keys] = reading->line;
@@ -275,16 +275,17 @@ int settings_read(settings *s, const char *path, char error[SETTINGS_ERROR_LENGT
     const int first_bad = ini_parse_stream(read_line, &reading, handle_pair, &reading);
     const bool broken = ferror(reading.file) != 0;
     fclose(reading.file);
-    if (reading.failed) {
-        return -1;
-    }
     if (broken || first_bad < 0) {
         snprintf(error, SETTINGS_ERROR_LENGTH, "%.200s: cannot be read", path);
         return -1;
     }
-    if (first_bad > 0) {
+    /* inih goes on after a line it cannot read: tell of whichever error comes first. */
+    if (first_bad > 0 && !(reading.failed_at != 0 && reading.failed_at <= first_bad)) {
         snprintf(error, SETTINGS_ERROR_LENGTH, "%.200s:%d: neither [section], key = value, nor comment", path,
                  first_bad);
+        return -1;
+    }
+    if (reading.failed_at != 0) {
         return -1;
     }
     *s = read;

@@ -1,0 +1,223 @@
+/* Settings: defaults, reading, refusals with their place and range, writing, hash. */
+#include <check.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "command_line.h"
+#include "settings.h"
+
+static char path[] = "/tmp/limphome_settings_XXXXXX";
+
+/* Reads `text` as an INI file over the defaults. */
+static int read_text(settings *s, const char *text, char error[SETTINGS_ERROR_LENGTH]) {
+    char name[sizeof path];
+    memcpy(name, path, sizeof path);
+    const int file = mkstemp(name);
+    ck_assert_int_ge(file, 0);
+    ck_assert_int_eq(write(file, text, strlen(text)), (ssize_t)strlen(text));
+    close(file);
+    *s = settings_default();
+    const int result = settings_read(s, name, error);
+    unlink(name);
+    return result;
+}
+
+/* `text` must be refused, with each of the words in the error, and nothing taken over. */
+static void check_refused(const char *text, const char *const *words) {
+    char error[SETTINGS_ERROR_LENGTH] = "";
+    settings s;
+    const settings standard = settings_default();
+    ck_assert_int_eq(read_text(&s, text, error), -1);
+    ck_assert_mem_eq(&s, &standard, sizeof s);
+    for (; *words != NULL; words++) {
+        ck_assert_msg(strstr(error, *words) != NULL, "error \"%s\" lacks \"%s\"", error, *words);
+    }
+}
+
+START_TEST(defaults_are_table_2) {
+    const settings s = settings_default();
+    ck_assert_double_eq(s.learning.learning_rate, 0.1);
+    ck_assert_double_eq(s.learning.discount_rate, 0.9);
+    ck_assert_double_eq(s.reward.forward, 8);
+    ck_assert_double_eq(s.reward.sideways, 2);
+    ck_assert_double_eq(s.reward.turn, 10);
+    ck_assert_double_eq(s.reward.goal, 10);
+    ck_assert_double_eq(s.episode.goal_distance_m, 2);
+    ck_assert_double_eq(s.reward.stability, 1);
+    ck_assert_double_eq(s.rbf.rate_weight, 0.1);
+    ck_assert_double_eq(s.rbf.rate_width, 0.01);
+    ck_assert_double_eq(s.rbf.rate_centre, 0.1);
+    ck_assert_int_eq(s.rbf.units, 50);
+    ck_assert_int_eq(s.learning.episodes, 2500);
+}
+END_TEST
+
+START_TEST(paper_ini_is_the_default) {
+    settings s = settings_default();
+    char error[SETTINGS_ERROR_LENGTH] = "";
+    const settings standard = settings_default();
+    ck_assert_msg(settings_read(&s, CONFIG_DIR "/paper.ini", error) == 0, "%s", error);
+    s.episode.tumble_tilt_rad = standard.episode.tumble_tilt_rad; /* printed with fewer digits */
+    ck_assert_mem_eq(&s, &standard, sizeof s);
+}
+END_TEST
+
+START_TEST(reads_comments_spaces_and_choices) {
+    settings s;
+    char error[SETTINGS_ERROR_LENGTH] = "";
+    ck_assert_msg(read_text(&s,
+                            "; a comment\n[learning]\n  \nseed=7\nlearning_rate = 1e-2 ; inline\n\n[failure]\n"
+                            "actuator = right_crawler\nmode = free",
+                            error) == 0,
+                  "%s", error);
+    ck_assert_int_eq(s.learning.seed, 7);
+    ck_assert_double_eq(s.learning.learning_rate, 0.01);
+    ck_assert_int_eq(s.failure.actuator, SETTINGS_FAILED_RIGHT);
+    ck_assert_int_eq(s.failure.mode, SETTINGS_FREE);
+}
+END_TEST
+
+static const struct {
+    const char *text;
+    const char *words[6]; /* ends with NULL */
+} refusals[] = {
+    {"[learning]\nseed = abc\n", {":2:", "[learning] seed = abc", "whole number from 0 to 2147483647"}},
+    {"[learning]\nseed = 1.5\n", {":2:", "seed", "whole number"}},
+    {"[learning]\nseed = -1\n", {":2:", "seed = -1", "from 0"}},
+    {"[learning]\nseed = 99999999999999999999\n", {":2:", "seed", "from 0"}},
+    {"\n\n[learning]\nlearning_rate = 1.01\n", {":4:", "learning_rate = 1.01", "a number from 0 to 1"}},
+    {"[learning]\nlearning_rate = nan\n", {":2:", "learning_rate = nan", "a number from 0 to 1"}},
+    {"[learning]\nlearning_rate = 0.1x\n", {":2:", "0.1x"}},
+    {"[learning]\nlearning_rate =\n", {":2:", "learning_rate"}},
+    {"[learning]\nlearn_rate = 0.1\n", {":2:", "learn_rate", "unknown key", "keys of [learning]:", "learning_rate"}},
+    {"[lerning]\nseed = 1\n", {":2:", "[lerning]", "sections:", "learning"}},
+    {"seed = 1\n", {":1:", "seed", "sections:"}},
+    {"[failure]\nmode = broken\n", {":2:", "mode = broken", "one of: locked free weak"}},
+    {"[failure]\nmode = lock\n", {":2:", "mode = lock"}},
+    {"[learning]\nseed = 1\nepisodes = 3\nseed = 2\n", {":4:", "seed", "already set at line 2"}},
+    {"[learning]\nwhat is this\n", {":2:", "key = value"}},
+    {"[learning\nseed = 1\n", {":1:"}},
+};
+
+START_TEST(refuses_with_place_and_range) {
+    check_refused(refusals[_i].text, refusals[_i].words);
+}
+END_TEST
+
+START_TEST(refuses_a_line_that_is_too_long) {
+    char text[1200] = "[learning]\nseed = ";
+    memset(text + strlen(text), '1', 1000);
+    const char *const words[] = {":2:", "line too long", NULL};
+    check_refused(text, words);
+}
+END_TEST
+
+START_TEST(refuses_a_missing_file) {
+    settings s = settings_default();
+    char error[SETTINGS_ERROR_LENGTH] = "";
+    ck_assert_int_eq(settings_read(&s, "/nowhere/at_all.ini", error), -1);
+    ck_assert_ptr_nonnull(strstr(error, "/nowhere/at_all.ini"));
+    ck_assert_int_eq(settings_read(&s, "/", error), -1);
+}
+END_TEST
+
+START_TEST(set_takes_one_assignment) {
+    settings s = settings_default();
+    char error[SETTINGS_ERROR_LENGTH] = "";
+    ck_assert_int_eq(settings_set(&s, "simulator.pace=real_time", error), 0);
+    ck_assert_int_eq(s.simulator.pace, SETTINGS_REAL_TIME);
+    static const char *const bad[] = {"",   "seed=1", "learning.seed",  "learning.seed=", "learning.seed=x",
+                                      ".=", "a.b=c",  "learning=seed.1"};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        const settings before = s;
+        ck_assert_msg(settings_set(&s, bad[i], error) == -1, "%s was accepted", bad[i]);
+        ck_assert_ptr_nonnull(strstr(error, "--set"));
+        ck_assert_mem_eq(&s, &before, sizeof s);
+    }
+}
+END_TEST
+
+START_TEST(check_wants_whole_steps_per_decision) {
+    settings s = settings_default();
+    char error[SETTINGS_ERROR_LENGTH] = "";
+    ck_assert_int_eq(settings_check(&s, error), 0);
+    s.simulator.time_step_s = 0.003;
+    ck_assert_int_eq(settings_check(&s, error), -1);
+    ck_assert_ptr_nonnull(strstr(error, "decision_period_s"));
+    ck_assert_ptr_nonnull(strstr(error, "time_step_s"));
+    s.simulator.time_step_s = 0.02;
+    s.episode.decision_period_s = 0.01;
+    ck_assert_int_eq(settings_check(&s, error), -1);
+}
+END_TEST
+
+START_TEST(what_is_written_reads_back_the_same) {
+    settings s = settings_default();
+    s.learning.learning_rate = 1.0 / 3;
+    s.simulator.time_step_s = 0.1 / 24;
+    s.failure.mode = SETTINGS_WEAK;
+    char text[8192] = "";
+    FILE *out = fmemopen(text, sizeof text, "w");
+    settings_write(&s, out);
+    fclose(out);
+    settings read;
+    char error[SETTINGS_ERROR_LENGTH] = "";
+    ck_assert_msg(read_text(&read, text, error) == 0, "%s", error);
+    ck_assert_mem_eq(&read, &s, sizeof s);
+}
+END_TEST
+
+START_TEST(hash_tells_what_decides) {
+    const settings s = settings_default();
+    settings other = s;
+    other.learning.episodes = 10;
+    other.simulator.pace = SETTINGS_REAL_TIME;
+    other.link.resend_s = 0.1;
+    ck_assert_uint_eq(settings_hash(&s), settings_hash(&other));
+    other.rbf.rate_width = 0.02;
+    ck_assert_uint_ne(settings_hash(&s), settings_hash(&other));
+    other = s;
+    other.failure.mode = SETTINGS_FREE;
+    ck_assert_uint_ne(settings_hash(&s), settings_hash(&other));
+}
+END_TEST
+
+START_TEST(command_line_takes_the_file_first_then_assignments) {
+    char name[sizeof path];
+    memcpy(name, path, sizeof path);
+    const int file = mkstemp(name);
+    dprintf(file, "[learning]\nseed = 5\nepisodes = 6\n");
+    close(file);
+    char *arguments[] = {"limphome-controller", "--set", "learning.seed=9", "--config", name, "--out", "x", NULL};
+    command_line line;
+    ck_assert_int_eq(command_line_parse(7, arguments, COMMAND_LINE_CONTROLLER, &line), COMMAND_LINE_RUN);
+    ck_assert_int_eq(line.settings.learning.seed, 9);
+    ck_assert_int_eq(line.settings.learning.episodes, 6);
+    ck_assert_str_eq(line.out, "x");
+    unlink(name);
+}
+END_TEST
+
+int main(void) {
+    Suite *suite = suite_create("settings");
+    TCase *all = tcase_create("settings");
+    tcase_add_test(all, defaults_are_table_2);
+    tcase_add_test(all, paper_ini_is_the_default);
+    tcase_add_test(all, reads_comments_spaces_and_choices);
+    tcase_add_loop_test(all, refuses_with_place_and_range, 0, (int)(sizeof refusals / sizeof refusals[0]));
+    tcase_add_test(all, refuses_a_line_that_is_too_long);
+    tcase_add_test(all, refuses_a_missing_file);
+    tcase_add_test(all, set_takes_one_assignment);
+    tcase_add_test(all, check_wants_whole_steps_per_decision);
+    tcase_add_test(all, what_is_written_reads_back_the_same);
+    tcase_add_test(all, hash_tells_what_decides);
+    tcase_add_test(all, command_line_takes_the_file_first_then_assignments);
+    suite_add_tcase(suite, all);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed != 0;
+}
