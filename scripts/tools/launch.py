@@ -1,0 +1,73 @@
+"""scripts/launch: both processes in real time until Ctrl-C, to watch the robot learn or drive."""
+
+import argparse
+import sys
+import time
+
+from tools import network, paths, runfolder
+from tools.pair import Pair, PairFailed
+from tools.processes import Interrupted, raise_on_signals
+
+POLL_S = 0.2
+UNTIL_STOPPED = 1_000_000  # episodes
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(
+        prog="scripts/launch", description="Runs simulator and controller in real time until Ctrl-C.")
+    parser.add_argument("--config", help="experiment (INI); default config/paper.ini, or the run's")
+    parser.add_argument("--robot", help="robot (URDF); default config/crawler.urdf, or the run's")
+    parser.add_argument("--policy", metavar="RUN", help="drive with the policy of this run instead of learning")
+    parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="one setting; repeatable")
+    parser.add_argument("--network", choices=("private", "host"), default="private", help="as for scripts/train")
+    return parser.parse_args()
+
+
+def make_folder(args):
+    """(folder of this launch, options for the controller)"""
+    config, robot, options = paths.CONFIG / "paper.ini", paths.CONFIG / "crawler.urdf", []
+    if args.policy:
+        run = runfolder.existing(args.policy, "policy")
+        config, robot, options = run.config, run.robot, ["--evaluate", run.policy]
+    settings = [f"learning.episodes={UNTIL_STOPPED}", "simulator.pace=real_time", *args.set]
+    out = paths.RUNS / f"launch-{time.strftime('%Y%m%d-%H%M%S')}"
+    return runfolder.create(out, args.config or config, args.robot or robot, settings), options
+
+
+def show(episode):
+    print(f"episode {episode.episode}: {episode.outcome} after {episode.duration_s:.1f} s, "
+          f"{abs(episode.lateral_error_m):.2f} m beside the line, reward {episode.reward:.2f}", flush=True)
+
+
+def launch(folder, url, options):
+    tail = runfolder.EpisodeTail(folder.episodes)
+    with Pair(folder, url, options) as pair:
+        print(f"running in {paths.shown(folder.path)}; Ctrl-C ends it\n"
+              "watch the messages from another terminal with scripts/spy, or scripts/spy --text", flush=True)
+        while not pair.finished():
+            for episode in tail.read_new():
+                show(episode)
+            time.sleep(POLL_S)
+        pair.end()
+
+
+def main():
+    args = parse_arguments()
+    try:
+        url = network.enter(args.network)
+        raise_on_signals()
+        folder, options = make_folder(args)
+        launch(folder, url, options)
+    except runfolder.InputError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except (network.NetworkError, PairFailed) as error:
+        print(error, file=sys.stderr)
+        return 1
+    except Interrupted as interrupted:
+        return interrupted.exit_code
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

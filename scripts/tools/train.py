@@ -1,0 +1,108 @@
+"""scripts/train: trains a policy and leaves a run folder."""
+
+import argparse
+import sys
+import time
+from pathlib import Path
+
+from tools import network, paths, runfolder
+from tools.manifest import Part, begin_manifest, write_manifest
+from tools.pair import Pair, PairFailed
+from tools.processes import Interrupted, raise_on_signals
+from tools.progress import Progress, clock
+
+POLL_S = 0.1
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(prog="scripts/train", description="Trains a policy and leaves a run folder.")
+    parser.add_argument("--config", help="experiment (INI); default config/paper.ini")
+    parser.add_argument("--robot", help="robot (URDF); default config/crawler.urdf")
+    parser.add_argument("--episodes", type=int, help="how many; short for --set learning.episodes=N")
+    parser.add_argument("--seed", type=int, help="of every random number; short for --set learning.seed=N")
+    parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="one setting; repeatable")
+    parser.add_argument("--out", metavar="DIR", help="run folder to make; default runs/<config>-seed<N>-<time>")
+    parser.add_argument("--resume", metavar="DIR", help="run folder to go on with, from its newest checkpoint")
+    parser.add_argument("--network", choices=("private", "host"), default="private",
+                        help="a network namespace of its own (default), or a port of its own on the host's network")
+    parser.add_argument("--quiet", action="store_true", help="no progress")
+    args = parser.parse_args()
+    if args.resume and (args.config or args.robot or args.out or args.set or args.seed is not None):
+        parser.error("--resume takes all from the run folder; only --episodes can be changed")
+    return args
+
+
+def new_folder(args):
+    assignments = list(args.set)
+    if args.seed is not None:
+        assignments.append(f"learning.seed={args.seed}")
+    if args.episodes is not None:
+        assignments.append(f"learning.episodes={args.episodes}")
+    config = Path(args.config or paths.CONFIG / "paper.ini")
+    folder = runfolder.create(args.out, config, args.robot or paths.CONFIG / "crawler.urdf", assignments)
+    begin_manifest(folder, config.stem)
+    return folder
+
+
+def resumed_folder(args):
+    folder = runfolder.existing(args.resume, "manifest", "episodes", "checkpoints")
+    if args.episodes is not None:
+        folder.config.write_text(runfolder.resolve_settings(folder.config, [f"learning.episodes={args.episodes}"]))
+    return folder
+
+
+def train(folder, url, resume, quiet):
+    """Runs the pair to its end; what it raises is why it did not get there."""
+    total = int(folder.settings()["learning"]["episodes"])
+    tail = runfolder.EpisodeTail(folder.episodes)
+    with Pair(folder, url, ["--resume"] if resume else []) as pair:
+        progress = Progress(total, quiet=quiet)
+        try:
+            while not pair.finished():
+                progress.update(tail.read_new())
+                time.sleep(POLL_S)
+            pair.end()
+        finally:
+            progress.update(tail.read_new())
+            progress.close()
+
+
+def main():
+    args = parse_arguments()
+    try:
+        url = network.enter(args.network)
+        raise_on_signals()
+        folder = resumed_folder(args) if args.resume else new_folder(args)
+    except runfolder.InputError as error:
+        print(error, file=sys.stderr)
+        return 2
+    except network.NetworkError as error:
+        print(f"network: {error}", file=sys.stderr)
+        return 1
+    print(f"training in {paths.shown(folder.path)}", file=sys.stderr)
+    part = Part(folder)
+    result, code = "finished", 0
+    try:
+        train(folder, url, bool(args.resume), args.quiet)
+    except Interrupted as interrupted:
+        result, code = "interrupted", interrupted.exit_code
+        print("interrupted; the run folder can be resumed from its newest checkpoint", file=sys.stderr)
+    except PairFailed as failure:
+        result, code = "failed", 1
+        print(failure, file=sys.stderr)
+    write_manifest(folder, part.measure(result))
+    draw(folder)
+    if code == 0:
+        print(f"done in {clock(part.wall_time_s)}: {paths.shown(folder.path)}", file=sys.stderr)
+    return code
+
+
+def draw(folder):
+    """Draws what can be drawn; a run that ended before its first episode has nothing to show."""
+    if folder.read_episodes():
+        from tools.figures import draw_all  # matplotlib takes most of a second to load
+        draw_all(folder)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
