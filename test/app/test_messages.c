@@ -1,0 +1,140 @@
+/* Checked decoding: exact length, counts, finite numbers; any bytes may come. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "messages.h"
+#include "suite.h"
+
+enum { SIZE = 16384 };
+
+static limphome_robot_state_t good_state(void) {
+    limphome_robot_state_t state;
+    memset(&state, 0, sizeof state);
+    state.num_actuators = 5;
+    state.orientation[0] = 1;
+    state.session = 42;
+    return state;
+}
+
+static limphome_policy_t good_policy(void) {
+    limphome_policy_t policy;
+    memset(&policy, 0, sizeof policy);
+    policy.num_actuators = 5;
+    policy.num_controlled = 4;
+    policy.num_units = 50;
+    policy.num_inputs = 10;
+    return policy;
+}
+
+static message_verdict judge_state(const limphome_robot_state_t *state, int surplus) {
+    unsigned char bytes[SIZE] = {0};
+    const int size = limphome_robot_state_t_encode(bytes, 0, SIZE, state);
+    limphome_robot_state_t decoded;
+    return message_decode_state(bytes, (size_t)(size + surplus), &decoded);
+}
+
+static message_verdict judge_policy(const limphome_policy_t *policy, int surplus) {
+    unsigned char bytes[SIZE] = {0};
+    const int size = limphome_policy_t_encode(bytes, 0, SIZE, policy);
+    limphome_policy_t decoded;
+    return message_decode_policy(bytes, (size_t)(size + surplus), &decoded);
+}
+
+START_TEST(good_messages_pass) {
+    const limphome_robot_state_t state = good_state();
+    const limphome_policy_t policy = good_policy();
+    ck_assert_int_eq(judge_state(&state, 0), MESSAGE_GOOD);
+    ck_assert_int_eq(judge_policy(&policy, 0), MESSAGE_GOOD);
+}
+END_TEST
+
+START_TEST(length_must_be_exact) {
+    const limphome_robot_state_t state = good_state();
+    const limphome_policy_t policy = good_policy();
+    ck_assert_int_eq(judge_state(&state, 1), MESSAGE_MALFORMED);
+    ck_assert_int_eq(judge_state(&state, -1), MESSAGE_MALFORMED);
+    ck_assert_int_eq(judge_policy(&policy, 1), MESSAGE_MALFORMED);
+    ck_assert_int_eq(judge_policy(&policy, -1), MESSAGE_MALFORMED);
+}
+END_TEST
+
+START_TEST(another_type_is_malformed) {
+    const limphome_robot_state_t state = good_state();
+    unsigned char bytes[SIZE] = {0};
+    const int size = limphome_robot_state_t_encode(bytes, 0, SIZE, &state);
+    bytes[0] ^= 1; /* of the type's fingerprint */
+    limphome_robot_state_t decoded;
+    ck_assert_int_eq(message_decode_state(bytes, (size_t)size, &decoded), MESSAGE_MALFORMED);
+    limphome_policy_t policy;
+    ck_assert_int_eq(message_decode_policy(bytes, (size_t)size, &policy), MESSAGE_MALFORMED);
+}
+END_TEST
+
+START_TEST(counts_must_fit) {
+    limphome_robot_state_t state = good_state();
+    static const int32_t bad_actuators[] = {0, -1, 9, INT32_MAX, INT32_MIN};
+    for (size_t i = 0; i < sizeof bad_actuators / sizeof bad_actuators[0]; i++) {
+        state.num_actuators = bad_actuators[i];
+        ck_assert_int_eq(judge_state(&state, 0), MESSAGE_MALFORMED);
+    }
+    limphome_policy_t policy = good_policy();
+    policy.num_units = 65;
+    ck_assert_int_eq(judge_policy(&policy, 0), MESSAGE_MALFORMED);
+    policy = good_policy();
+    policy.num_inputs = 11;
+    ck_assert_int_eq(judge_policy(&policy, 0), MESSAGE_MALFORMED);
+    policy = good_policy();
+    policy.num_controlled = 6;
+    ck_assert_int_eq(judge_policy(&policy, 0), MESSAGE_MALFORMED);
+}
+END_TEST
+
+START_TEST(numbers_must_be_finite_where_they_are_used) {
+    limphome_robot_state_t state = good_state();
+    state.actuator_position[7] = NAN; /* not used: there are five */
+    ck_assert_int_eq(judge_state(&state, 0), MESSAGE_GOOD);
+    state.actuator_position[4] = NAN;
+    ck_assert_int_eq(judge_state(&state, 0), MESSAGE_NON_FINITE);
+    state = good_state();
+    state.orientation[3] = INFINITY;
+    ck_assert_int_eq(judge_state(&state, 0), MESSAGE_NON_FINITE);
+    limphome_policy_t policy = good_policy();
+    policy.centre[49][9] = NAN;
+    ck_assert_int_eq(judge_policy(&policy, 0), MESSAGE_NON_FINITE);
+    policy = good_policy();
+    policy.width[0] = INFINITY;
+    ck_assert_int_eq(judge_policy(&policy, 0), MESSAGE_NON_FINITE);
+}
+END_TEST
+
+START_TEST(any_bytes_are_survived) {
+    srand(1);
+    const limphome_robot_state_t state = good_state();
+    unsigned char bytes[SIZE];
+    const int size = limphome_robot_state_t_encode(bytes, 0, SIZE, &state);
+    for (int round = 0; round < 2000; round++) {
+        bytes[8 + rand() % (size - 8)] = (unsigned char)rand();
+        limphome_robot_state_t decoded;
+        if (message_decode_state(bytes, (size_t)size, &decoded) == MESSAGE_GOOD) {
+            ck_assert_int_ge(decoded.num_actuators, 1);
+            ck_assert_int_le(decoded.num_actuators, 8);
+        }
+    }
+    for (size_t length = 0; length < 64; length++) {
+        limphome_robot_state_t decoded;
+        ck_assert_int_eq(message_decode_state(bytes, length, &decoded), MESSAGE_MALFORMED);
+    }
+}
+END_TEST
+
+int main(void) {
+    TCase *cases = tcase_create("messages");
+    tcase_add_test(cases, good_messages_pass);
+    tcase_add_test(cases, length_must_be_exact);
+    tcase_add_test(cases, another_type_is_malformed);
+    tcase_add_test(cases, counts_must_fit);
+    tcase_add_test(cases, numbers_must_be_finite_where_they_are_used);
+    tcase_add_test(cases, any_bytes_are_survived);
+    return run_suite("messages", cases);
+}

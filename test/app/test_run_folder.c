@@ -1,0 +1,182 @@
+/* The run folder: rows, checkpoints, taking up where the newest checkpoint lies, and what is refused. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "run_folder.h"
+#include "suite.h"
+
+static char folder_name[64];
+
+static void make_name(void) {
+    snprintf(folder_name, sizeof folder_name, "/tmp/limphome_run_XXXXXX");
+    ck_assert_ptr_nonnull(mkdtemp(folder_name));
+}
+
+static void remove_folder(void) {
+    char command[128];
+    snprintf(command, sizeof command, "rm -r '%s'", folder_name);
+    ck_assert_int_eq(system(command), 0);
+}
+
+static lh_summary summary(int32_t number) {
+    return (lh_summary){.number = number,
+                        .outcome = LH_OUTCOME_GOAL,
+                        .steps = 10 * number,
+                        .total = {.motion = 1.5F},
+                        .temperature = 0.25F};
+}
+
+static limphome_checkpoint_t checkpoint(int32_t episode) {
+    limphome_checkpoint_t c;
+    memset(&c, 0, sizeof c);
+    c.policy.episode = episode;
+    c.policy.num_actuators = 5;
+    c.policy.num_controlled = 4;
+    c.policy.num_units = 50;
+    c.policy.num_inputs = 10;
+    c.policy.weight[3] = 0.5F;
+    c.random_state[1] = 99;
+    return c;
+}
+
+static void file_path(char path[256], const char *name) {
+    snprintf(path, 256, "%s/%s", folder_name, name);
+}
+
+static int count_lines(const char *name) {
+    char path[256];
+    file_path(path, name);
+    FILE *file = fopen(path, "r");
+    ck_assert_ptr_nonnull(file);
+    int lines = 0;
+    for (int c; (c = fgetc(file)) != EOF;) {
+        lines += c == '\n';
+    }
+    fclose(file);
+    return lines;
+}
+
+/* Episodes 1 to `episodes`, with a checkpoint after each tenth. */
+static void write_run(int32_t episodes) {
+    run_folder folder;
+    ck_assert(run_folder_create(&folder, folder_name));
+    for (int32_t i = 1; i <= episodes; i++) {
+        const lh_summary s = summary(i);
+        ck_assert(run_folder_episode(&folder, &s, 0.5));
+        const limphome_checkpoint_t c = checkpoint(i);
+        ck_assert(i % 10 != 0 || run_folder_checkpoint(&folder, &c));
+    }
+    ck_assert(run_folder_close(&folder));
+}
+
+START_TEST(a_row_holds_the_summary) {
+    write_run(1);
+    char path[256];
+    char line[512];
+    file_path(path, "episodes.csv");
+    FILE *file = fopen(path, "r");
+    ck_assert_ptr_nonnull(fgets(line, sizeof line, file));
+    ck_assert_ptr_nonnull(fgets(line, sizeof line, file));
+    ck_assert_str_eq(line, "1,goal,10,5,1.5,1.5,0,0,0,0,0,0.25\n");
+    fclose(file);
+}
+END_TEST
+
+START_TEST(a_folder_with_a_run_is_refused) {
+    write_run(1);
+    run_folder folder;
+    ck_assert(!run_folder_create(&folder, folder_name));
+    ck_assert_int_eq(count_lines("episodes.csv"), 2);
+}
+END_TEST
+
+START_TEST(resume_takes_the_newest_checkpoint_and_cuts_the_rows) {
+    write_run(27);
+    run_folder folder;
+    limphome_checkpoint_t c;
+    const limphome_checkpoint_t expected = checkpoint(20);
+    ck_assert(run_folder_resume(&folder, folder_name, &c));
+    ck_assert_mem_eq(&c, &expected, sizeof c);
+    const lh_summary s = summary(21);
+    ck_assert(run_folder_episode(&folder, &s, 0.5));
+    ck_assert(run_folder_close(&folder));
+    ck_assert_int_eq(count_lines("episodes.csv"), 1 + 21);
+}
+END_TEST
+
+START_TEST(resume_refuses_what_is_damaged) {
+    write_run(27);
+    run_folder folder;
+    limphome_checkpoint_t c;
+    char path[256];
+    file_path(path, "checkpoint/episode_000020.lcm");
+    ck_assert_int_eq(truncate(path, 100), 0);
+    ck_assert(!run_folder_resume(&folder, folder_name, &c));
+    ck_assert_int_eq(count_lines("episodes.csv"), 1 + 27); /* nothing is lost */
+    unlink(path);
+    file_path(path, "episodes.csv");
+    ck_assert_int_eq(truncate(path, 200), 0);
+    ck_assert(!run_folder_resume(&folder, folder_name, &c));
+}
+END_TEST
+
+START_TEST(resume_without_checkpoint_is_refused) {
+    write_run(5);
+    run_folder folder;
+    limphome_checkpoint_t c;
+    ck_assert(!run_folder_resume(&folder, folder_name, &c));
+    ck_assert(!run_folder_resume(&folder, "/nowhere", &c));
+}
+END_TEST
+
+START_TEST(a_policy_reads_back) {
+    run_folder folder;
+    ck_assert(run_folder_create(&folder, folder_name));
+    const limphome_checkpoint_t c = checkpoint(10);
+    ck_assert(run_folder_policy(&folder, &c.policy));
+    ck_assert(run_folder_close(&folder));
+    char path[256];
+    file_path(path, "policy.lcm");
+    limphome_policy_t policy;
+    ck_assert(run_folder_read_policy(path, &policy));
+    ck_assert_mem_eq(&policy, &c.policy, sizeof policy);
+    file_path(path, "episodes.csv");
+    ck_assert(!run_folder_read_policy(path, &policy));
+    ck_assert(!run_folder_read_policy("/nowhere", &policy));
+}
+END_TEST
+
+START_TEST(no_folder_writes_nothing) {
+    run_folder folder;
+    const lh_summary s = summary(1);
+    const limphome_checkpoint_t c = checkpoint(1);
+    ck_assert(run_folder_create(&folder, NULL));
+    ck_assert(run_folder_episode(&folder, &s, 0.5));
+    ck_assert(run_folder_checkpoint(&folder, &c));
+    ck_assert(run_folder_policy(&folder, &c.policy));
+    ck_assert(run_folder_close(&folder));
+}
+END_TEST
+
+START_TEST(a_place_that_cannot_be_written_is_refused) {
+    run_folder folder;
+    ck_assert(!run_folder_create(&folder, "/proc/nothing/here"));
+}
+END_TEST
+
+int main(void) {
+    TCase *cases = tcase_create("run_folder");
+    tcase_add_checked_fixture(cases, make_name, remove_folder);
+    tcase_add_test(cases, a_row_holds_the_summary);
+    tcase_add_test(cases, a_folder_with_a_run_is_refused);
+    tcase_add_test(cases, resume_takes_the_newest_checkpoint_and_cuts_the_rows);
+    tcase_add_test(cases, resume_refuses_what_is_damaged);
+    tcase_add_test(cases, resume_without_checkpoint_is_refused);
+    tcase_add_test(cases, a_policy_reads_back);
+    tcase_add_test(cases, no_folder_writes_nothing);
+    tcase_add_test(cases, a_place_that_cannot_be_written_is_refused);
+    return run_suite("run_folder", cases);
+}
