@@ -351,6 +351,11 @@ void settings_write(const settings *s, FILE *out) {
 
 void settings_describe(FILE *out) {
     const settings standard = settings_default();
+    fprintf(
+        out,
+        "# Configuration\n\nThe keys of an experiment's INI file, as both programs read it; "
+        "`limphome-controller --help-settings` prints this page.\nA key that is not set has its default, which is the "
+        "paper's where the paper gives one. Comments begin with `;`.\n\n");
     for (size_t i = 0; i < KEY_COUNT; i++) {
         if (i == 0 || strcmp(keys[i].section, keys[i - 1].section) != 0) {
             fprintf(out, "%s## [%s]\n\n| key | default | allowed | meaning |\n|---|---|---|---|\n", i == 0 ? "" : "\n",
