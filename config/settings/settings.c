@@ -343,7 +343,7 @@ void settings_write(const settings *s, FILE *out) {
         if (i == 0 || strcmp(keys[i].section, keys[i - 1].section) != 0) {
             fprintf(out, "%s[%s]\n", i == 0 ? "" : "\n", keys[i].section);
         }
-        char value[64];
+        char value[64] = "";
         print_value(s, &keys[i], value, sizeof value);
         fprintf(out, "%s = %s\n", keys[i].name, value);
     }
@@ -361,7 +361,7 @@ void settings_describe(FILE *out) {
             fprintf(out, "%s## [%s]\n\n| key | default | allowed | meaning |\n|---|---|---|---|\n", i == 0 ? "" : "\n",
                     keys[i].section);
         }
-        char value[64];
+        char value[64] = "";
         char allowed[320];
         print_value(&standard, &keys[i], value, sizeof value);
         print_range(&keys[i], allowed, sizeof allowed);
@@ -380,7 +380,7 @@ uint64_t settings_hash(const settings *s) {
     uint64_t hash = 14695981039346656037u;
     for (size_t i = 0; i < KEY_COUNT; i++) {
         if (keys[i].decides) {
-            char value[64];
+            char value[64] = "";
             print_value(s, &keys[i], value, sizeof value);
             hash = fnv1a(fnv1a(fnv1a(hash, keys[i].section), keys[i].name), value);
         }
