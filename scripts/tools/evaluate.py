@@ -62,9 +62,12 @@ def main():
     except runfolder.InputError as error:
         print(error, file=sys.stderr)
         return 2
-    except (network.NetworkError, PairFailed) as error:
-        print(error, file=sys.stderr)
+    except network.NetworkError as error:
+        print(f"network: {error}", file=sys.stderr)
         return 1
+    except PairFailed as failure:
+        print(failure, file=sys.stderr)
+        return failure.exit_code
     except Interrupted as interrupted:
         return interrupted.exit_code
     print(json.dumps(summary, indent=2) if args.json else table(summary))

@@ -5,9 +5,18 @@ import signal
 from tools import paths, registry
 from tools.processes import Child
 
+BAD_INPUT = 2  # exit code of both programs, as of the scripts, for what the user gave
+
 
 class PairFailed(Exception):
     """One of the two ended when it should not have; the text tells which, and shows its last words."""
+
+    def __init__(self, child):
+        code = child.exit_code()
+        how = f"exit code {code}" if code >= 0 else f"signal {signal.Signals(-code).name}"
+        super().__init__(f"limphome-{child.name} ended early ({how}); the end of {paths.shown(child.log)}:\n"
+                         f"{child.log_tail()}")
+        self.exit_code = BAD_INPUT if code == BAD_INPUT else 1
 
 
 class Pair:
@@ -45,16 +54,11 @@ class Pair:
             return True
         for child in (self.simulator, self.controller):
             if child.exit_code() is not None:
-                raise PairFailed(_obituary(child))
+                raise PairFailed(child)
         return False
 
     def end(self):
         """After the controller has finished: ends the simulator, which must go without complaint."""
         if self.simulator.stop() != 0:
-            raise PairFailed(_obituary(self.simulator))
+            raise PairFailed(self.simulator)
 
-
-def _obituary(child):
-    code = child.exit_code()
-    how = f"exit code {code}" if code >= 0 else f"signal {signal.Signals(-code).name}"
-    return f"limphome-{child.name} ended early ({how}); the end of {paths.shown(child.log)}:\n{child.log_tail()}"

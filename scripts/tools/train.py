@@ -88,7 +88,7 @@ def main():
         result, code = "interrupted", interrupted.exit_code
         print("interrupted; the run folder can be resumed from its newest checkpoint", file=sys.stderr)
     except PairFailed as failure:
-        result, code = "failed", 1
+        result, code = "failed", failure.exit_code
         print(failure, file=sys.stderr)
     write_manifest(folder, part.measure(result))
     draw(folder)

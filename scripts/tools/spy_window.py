@@ -1,0 +1,50 @@
+"""lcm-spy with our message types.
+
+The distribution's lcm-spy does not start on Java 17; the one in the Python package lcm does, and brings its jars.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import lcm
+
+from tools import paths
+from tools.runfolder import InputError
+
+JARS = Path(lcm.__file__).resolve().parents[1] / "share" / "java"
+TYPES = paths.BUILD / "java" / "limphome-types.jar"
+SOURCES = paths.ROOT / "lcmtypes"
+
+
+def window_command(url):
+    """The command that opens the window on `url`; its jar of types is made where it is missing or old."""
+    if not os.environ.get("DISPLAY"):
+        raise InputError("there is no display (DISPLAY is not set); use scripts/spy --text")
+    if shutil.which("javac") is None:
+        raise InputError("a Java development kit is needed: apt-get install default-jdk; or use scripts/spy --text")
+    make_types_jar()
+    class_path = os.pathsep.join(map(str, [TYPES, *sorted(JARS.glob("*.jar"))]))
+    return ["java", "-Djava.net.preferIPv4Stack=true", "-cp", class_path, "lcm.spy.Spy", f"--lcm-url={url}"]
+
+
+def make_types_jar():
+    types = sorted(SOURCES.glob("*.lcm"))
+    if TYPES.exists() and TYPES.stat().st_mtime > max(file.stat().st_mtime for file in [SOURCES, *types]):
+        return
+    print("compiling the message types for lcm-spy", file=sys.stderr)
+    work = TYPES.parent
+    shutil.rmtree(work, ignore_errors=True)
+    classes = work / "classes"
+    classes.mkdir(parents=True)
+    _run("lcm-gen", "-j", "--jpath", work / "source", *types)
+    _run("javac", "-cp", JARS / "lcm.jar", "-d", classes, *sorted((work / "source").rglob("*.java")))
+    _run("jar", "cf", TYPES, "-C", classes, ".")
+
+
+def _run(*command):
+    result = subprocess.run(command, capture_output=True, text=True)
+    if result.returncode != 0:
+        raise InputError(f"{command[0]} failed:\n{result.stderr or result.stdout}")

@@ -1,0 +1,56 @@
+"""Runs that the tests share. All of them talk on a loopback of their own."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = Path(os.environ.get("LIMPHOME_BUILD", ROOT / "build"))
+sys.path[:0] = [str(ROOT / "scripts"), str(BUILD / "python")]
+
+SMOKE = ROOT / "config" / "smoke.ini"
+TIME_LIMIT_S = 300  # against a hang only; nothing here measures time
+
+
+def run_script(name, *arguments, check=True, **options):
+    """Runs scripts/NAME to its end; with `check`, it must succeed."""
+    result = subprocess.run([ROOT / "scripts" / name, *map(str, arguments)], capture_output=True, text=True,
+                            timeout=TIME_LIMIT_S, stdin=subprocess.DEVNULL, **options)
+    assert not check or result.returncode == 0, f"{name}: exit {result.returncode}\n{result.stderr}\n{result.stdout}"
+    return result
+
+
+def start_script(name, *arguments, **options):
+    """Starts scripts/NAME in a process group of its own, as a shell does; returns the Popen."""
+    return subprocess.Popen([ROOT / "scripts" / name, *map(str, arguments)], stdin=subprocess.DEVNULL, text=True,
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True, **options)
+
+
+def train(out, *arguments, check=True):
+    """Trains by config/smoke.ini into `out`; returns the result of the script."""
+    return run_script("train", "--config", SMOKE, "--out", out, "--quiet", *arguments, check=check)
+
+
+def processes_that_mention(text):
+    """Ids of the processes whose command line holds `text`, this one left out."""
+    found = []
+    for entry in Path("/proc").iterdir():
+        try:
+            if entry.name.isdigit() and int(entry.name) != os.getpid() and \
+                    str(text).encode() in (entry / "cmdline").read_bytes():
+                found.append(int(entry.name))
+        except (FileNotFoundError, ProcessLookupError):
+            continue
+    return found
+
+
+@pytest.fixture(scope="session")
+def smoke_run(tmp_path_factory):
+    """Run folder of 30 episodes, seed 1."""
+    from tools.runfolder import RunFolder
+    out = tmp_path_factory.mktemp("smoke") / "run"
+    train(out)
+    return RunFolder(out)

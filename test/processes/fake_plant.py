@@ -1,0 +1,130 @@
+"""A plant of a few lines that mistreats its link: python fake_plant.py FAULTS URL COMMAND...
+
+Starts COMMAND, a limphome-controller, and answers it in lockstep until it ends. FAULTS is JSON with the probabilities
+of what befalls a message: drop, duplicate, reorder (an earlier state comes again), garbage (a broken copy comes too);
+and `seed`. Prints JSON: the controller's exit code, how many states it answered, how often a command for one
+(session, seq) differed from an earlier one, and how often each fault was done.
+
+The robot is a point that the right crawler pushes and the swing joint steers.
+"""
+
+import json
+import math
+import random
+import subprocess
+import sys
+from collections import Counter
+
+import lcm
+
+from limphome import reset_request_t, robot_state_t, velocity_command_t
+
+PERIOD_S = 0.5
+RESEND_MS = 3
+HOME = [0.0, 0.0, 0.0, 0.6, -1.5, 0.0, 0.0, 0.0]
+JOINT_LOW = [0, 0, -2.6, -0.6, -2.4, 0, 0, 0]
+JOINT_HIGH = [0, 0, 2.6, 1.2, 0.0, 0, 0, 0]
+
+
+class FakePlant:
+    def __init__(self, url, faults):
+        self.random = random.Random(faults["seed"])
+        self.faults = faults
+        self.done = Counter()
+        self.lcm = lcm.LCM(url)
+        self.lcm.subscribe("LIMPHOME_COMMAND", self._on_command)
+        self.lcm.subscribe("LIMPHOME_RESET", self._on_reset)
+        self.answers = {}  # (session, seq) -> velocities of the first command
+        self.differing = 0
+        self.earlier = b""
+        self.begin()
+
+    def begin(self):
+        """The robot is put back; a new session begins."""
+        self.session = self.random.getrandbits(62)
+        self.seq = self.utime = 0
+        self.x = self.y = 0.0
+        self.heading = math.pi / 2
+        self.angles = list(HOME)
+        self.command = None
+
+    def state(self):
+        state = robot_state_t()
+        state.utime, state.session, state.seq, state.lockstep = self.utime, self.session, self.seq, 1
+        state.num_actuators = 5
+        state.position = [self.x, self.y, 0.0]
+        state.orientation = [math.cos(self.heading / 2), 0.0, 0.0, math.sin(self.heading / 2)]
+        state.actuator_position = list(self.angles)
+        state.actuator_effort = [0.0, 500.0 * math.sin(self.seq), 0, 0, 0, 0, 0, 0]
+        state.actuator_health = [1, 0, 0, 0, 0, 0, 0, 0]
+        return state
+
+    def advance(self, velocity):
+        for joint in (2, 3, 4):
+            angle = self.angles[joint] + velocity[joint] * PERIOD_S
+            self.angles[joint] = min(max(angle, JOINT_LOW[joint]), JOINT_HIGH[joint])
+        self.heading += 0.2 * velocity[1] * PERIOD_S * (1.0 - self.angles[2])
+        self.x += velocity[1] * PERIOD_S * math.cos(self.heading)
+        self.y += velocity[1] * PERIOD_S * math.sin(self.heading)
+        self.utime += round(PERIOD_S * 1e6)
+        self.seq += 1
+        self.command = None
+
+    def befalls(self, fault):
+        happens = self.random.random() < self.faults.get(fault, 0.0)
+        self.done[fault] += happens
+        return happens
+
+    def publish(self):
+        state = self.state()
+        encoded = state.encode()
+        if self.befalls("garbage"):
+            self.lcm.publish("LIMPHOME_STATE", encoded[:-3])
+            self.lcm.publish("LIMPHOME_STATE", encoded + b"\0")
+            state.position = [math.nan, 0.0, 0.0]
+            self.lcm.publish("LIMPHOME_STATE", state.encode())
+        if self.befalls("drop"):
+            return
+        self.lcm.publish("LIMPHOME_STATE", encoded)
+        if self.befalls("duplicate"):
+            self.lcm.publish("LIMPHOME_STATE", encoded)
+        if self.earlier and self.befalls("reorder"):
+            self.lcm.publish("LIMPHOME_STATE", self.earlier)
+        if self.befalls("keep"):
+            self.earlier = encoded
+
+    def _on_command(self, _channel, data):
+        command = velocity_command_t.decode(data)
+        key = (command.session, command.seq)
+        first = self.answers.setdefault(key, command.velocity)
+        self.differing += first != command.velocity
+        if key == (self.session, self.seq) and not self.befalls("drop"):
+            self.command = command
+
+    def _on_reset(self, _channel, data):
+        if reset_request_t.decode(data).session == self.session and not self.befalls("drop"):
+            self.begin()
+
+    def serve(self, controller):
+        while controller.poll() is None:
+            self.publish()
+            while self.lcm.handle_timeout(RESEND_MS):
+                if self.command:
+                    self.advance(self.command.velocity)
+                    break
+
+
+def main():
+    faults, url, command = json.loads(sys.argv[1]), sys.argv[2], sys.argv[3:]
+    plant = FakePlant(url, {"keep": 0.1, **faults})
+    controller = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    try:
+        plant.serve(controller)
+    finally:
+        controller.kill()
+    print(json.dumps({"exit_code": controller.wait(), "answered": len(plant.answers), "differing": plant.differing,
+                      "done": plant.done}))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,71 @@
+"""However a run ends, no process stays behind and what is left can be used."""
+
+import os
+import signal
+
+import pytest
+from conftest import SMOKE, TIME_LIMIT_S, processes_that_mention, run_script, start_script
+from test_repeatable import wait_until
+
+from tools.runfolder import RunFolder
+
+
+@pytest.fixture
+def running(tmp_path):
+    """(process, run folder) of a training run that has finished three episodes."""
+    folder = RunFolder(tmp_path / "run")
+    process = start_script("train", "--config", SMOKE, "--out", folder.path, "--quiet")
+    wait_until(process, lambda: len(folder.read_episodes()) >= 3)
+    yield process, folder
+    if process.poll() is None:
+        process.kill()
+    process.communicate()
+
+
+def program_of(folder, name):
+    """Process id of one of the two programs of a run."""
+    for pid in processes_that_mention(folder.path):
+        with open(f"/proc/{pid}/comm") as comm:
+            if comm.read().strip() == f"limphome-{name}"[:15]:
+                return pid
+    raise AssertionError(f"limphome-{name} is not running")
+
+
+def assert_nothing_left(process, folder):
+    wait_until_gone = [pid for pid in processes_that_mention(folder.path) if pid != process.pid]
+    assert wait_until_gone == []
+
+
+def test_ctrl_c(running):
+    process, folder = running
+    os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+    process.communicate(timeout=TIME_LIMIT_S)
+    assert process.returncode == 130
+    assert_nothing_left(process, folder)
+    rows = folder.read_episodes()
+    assert 3 <= len(rows) < 30
+    assert folder.policy.exists() and folder.manifest.exists()
+    assert (folder.figures / "fig9_motion.png").exists()
+    run_script("plot", folder.path)
+
+
+def test_script_that_is_killed_takes_the_programs_along(running):
+    process, folder = running
+    programs = [program_of(folder, "simulator"), program_of(folder, "controller")]
+    process.kill()
+    process.communicate(timeout=TIME_LIMIT_S)
+    for _ in range(1000):
+        if not set(programs) & set(processes_that_mention(folder.path)):
+            break
+        signal.sigtimedwait([], 0.02)
+    assert_nothing_left(process, folder)
+
+
+@pytest.mark.parametrize("name", ["simulator", "controller"])
+def test_program_that_dies_is_told(running, name):
+    process, folder = running
+    os.kill(program_of(folder, name), signal.SIGKILL)
+    _, errors = process.communicate(timeout=TIME_LIMIT_S)
+    assert process.returncode == 1
+    assert f"limphome-{name} ended early (signal SIGKILL)" in errors
+    assert_nothing_left(process, folder)
