@@ -11,12 +11,12 @@ extern "C" {
 #endif
 
 typedef struct command_line {
-    settings settings;    /* as resolved: defaults, then --config, then each --set */
-    const char *robot;    /* --robot, a URDF file */
-    const char *lcm_url;  /* --lcm-url; NULL: LCM's own default, which follows LCM_DEFAULT_URL */
-    const char *out;      /* controller: --out, the run folder, or NULL */
-    const char *evaluate; /* controller: --evaluate, a policy file, or NULL */
-    bool resume;          /* controller: --resume */
+    struct settings settings; /* as resolved: defaults, then --config, then each --set */
+    const char *robot;        /* --robot, a URDF file */
+    const char *lcm_url;      /* --lcm-url; NULL: LCM's own default, which follows LCM_DEFAULT_URL */
+    const char *out;          /* controller: --out, the run folder, or NULL */
+    const char *evaluate;     /* controller: --evaluate, a policy file, or NULL */
+    bool resume;              /* controller: --resume */
 } command_line;
 
 /* Which program asks. */

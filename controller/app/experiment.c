@@ -98,10 +98,10 @@ static void send_reset(experiment *e) {
     e->reset_sent = true;
 }
 
-static limphome_checkpoint_t make_checkpoint(const experiment *e, int64_t utime) {
+static limphome_checkpoint_t make_checkpoint(const experiment *e) {
     limphome_checkpoint_t checkpoint;
     memset(&checkpoint, 0, sizeof checkpoint);
-    checkpoint.policy = convert_policy(&e->controller, e->finished, utime);
+    checkpoint.policy = convert_policy(&e->controller, e->finished, e->utime);
     memcpy(checkpoint.random_state, e->controller.learner.random.s, sizeof checkpoint.random_state);
     checkpoint.clamped = e->controller.learner.clamped;
     checkpoint.settings_hash = e->hash;
@@ -115,7 +115,7 @@ static void finish_episode(experiment *e, const lh_summary *summary, const limph
     bus_send_episode(&e->bus, &episode);
     e->failed = !run_folder_episode(&e->folder, summary, e->settings.episode.decision_period_s) || e->failed;
     if (!e->evaluating && summary->number % e->config.episode.reset_every == 0) {
-        const limphome_checkpoint_t checkpoint = make_checkpoint(e, state->utime);
+        const limphome_checkpoint_t checkpoint = make_checkpoint(e);
         bus_send_policy(&e->bus, &checkpoint.policy);
         e->failed = !run_folder_checkpoint(&e->folder, &checkpoint) || e->failed;
     }
@@ -152,6 +152,7 @@ static void decide(experiment *e, const limphome_robot_state_t *state) {
     }
     bus_record_state(&e->bus, state);
     e->decisions++;
+    e->utime = state->utime;
     if (error == LH_OK) {
         const limphome_decision_t message = convert_decision(&decision, state);
         bus_send_decision(&e->bus, &message);
@@ -227,7 +228,7 @@ bool experiment_run(experiment *e, const volatile sig_atomic_t *stop) {
 bool experiment_close(experiment *e, bool complete) {
     bool good = true;
     if (e->learner_ready && !e->evaluating) {
-        const limphome_checkpoint_t checkpoint = make_checkpoint(e, bus_now_us());
+        const limphome_checkpoint_t checkpoint = make_checkpoint(e);
         bus_send_policy(&e->bus, &checkpoint.policy);
         good = run_folder_policy(&e->folder, &checkpoint.policy);
         /* An interrupted run is gone on with from where the plant was last reset: there alone it is repeatable. */

@@ -36,6 +36,7 @@ typedef struct experiment {
 
     int32_t finished; /* episodes */
     int64_t decisions;
+    int64_t utime;    /* plant time of the newest state decided on [us] */
     int64_t stale;    /* messages of past states or other sessions */
     int64_t repeated; /* states heard again */
     double started;   /* monotonic [s] */
