@@ -121,7 +121,7 @@ bool Link::accept_sender(int64_t sender) {
 }
 
 void Link::receive_command(const lcm::ReceiveBuffer *buffer, const std::string &) {
-    velocity_command_t command;
+    velocity_command_t command{};
     counts_.received++;
     if (!decode_exactly(buffer, command) || command.num_actuators != num_actuators_) {
         counts_.rejected_malformed++;
@@ -147,7 +147,7 @@ void Link::receive_command(const lcm::ReceiveBuffer *buffer, const std::string &
 }
 
 void Link::receive_reset(const lcm::ReceiveBuffer *buffer, const std::string &) {
-    reset_request_t request;
+    reset_request_t request{};
     counts_.received++;
     if (!decode_exactly(buffer, request)) {
         counts_.rejected_malformed++;
