@@ -1,0 +1,94 @@
+#include "contact.h"
+
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+
+#include <algorithm>
+
+#include "convert.h"
+#include "crawler.h"
+
+namespace limphome {
+namespace {
+
+// Tangents: along and across the belt on a crawler, so that drives act on one of them only; else any.
+Eigen::Matrix3d contact_frame(const Robot &robot, const ContactShape &shape, const Eigen::Vector3d &normal) {
+    Eigen::Matrix3d frame;
+    Eigen::Vector3d along = shape.on_crawler ? belt_direction(robot, shape.part, normal) : normal.unitOrthogonal();
+    if (along.squaredNorm() < 1e-6) {  // lying on its side
+        along = normal.unitOrthogonal();
+    }
+    frame.col(0) = normal;
+    frame.col(1) = along.normalized();
+    frame.col(2) = normal.cross(frame.col(1));
+    return frame;
+}
+
+// Velocity of a point fixed to `link` along the columns of the contact's frame.
+void fill_jacobian(const btMultiBody &multibody, int link, Contact &contact) {
+    const Eigen::Vector3d arm = contact.point - to_eigen(multibody.getBasePos());
+    contact.jacobian.setZero();
+    for (int column = 0; column < 3; column++) {
+        contact.jacobian.col(column).head<3>() = arm.cross(contact.frame.col(column));
+        contact.jacobian.col(column).segment<3>(3) = contact.frame.col(column);
+    }
+    for (int joint = link; joint >= 0; joint = multibody.getParent(joint)) {
+        const btMultibodyLink &moved = multibody.getLink(joint);
+        const btTransform &frame = moved.m_cachedWorldTransform;
+        const Eigen::Vector3d axis = to_eigen(quatRotate(frame.getRotation(), moved.getAxisTop(0)));
+        const Eigen::Vector3d pivot = to_eigen(frame * -moved.m_dVector);
+        contact.jacobian.row(6 + joint) = axis.cross(contact.point - pivot).transpose() * contact.frame;
+    }
+}
+
+// The impulse a contact begins with: what its shape bore in the step before, turned into the new frame.
+Eigen::Vector3d initial_impulse(const Contact &contact, const std::vector<Contact> &previous) {
+    for (const Contact &old : previous) {
+        if (old.shape == contact.shape && old.frame.col(0).dot(contact.frame.col(0)) > 0.9) {
+            return contact.frame.transpose() * (old.frame * old.impulse);
+        }
+    }
+    return Eigen::Vector3d::Zero();
+}
+
+Contact make_contact(const Robot &robot, const btMultiBodyLinkCollider &collider, int child,
+                     const btManifoldPoint &found, const Eigen::Vector3d &normal) {
+    Contact contact;
+    contact.shape = collider.getUserIndex() + child;
+    const ContactShape &shape = robot.shapes()[static_cast<std::size_t>(contact.shape)];
+    contact.point = 0.5 * to_eigen(found.getPositionWorldOnA() + found.getPositionWorldOnB());
+    contact.frame = contact_frame(robot, shape, normal);
+    contact.depth = -found.getDistance();
+    contact.friction = shape.friction;
+    fill_jacobian(robot.multibody(), collider.m_link, contact);
+    if (shape.on_crawler) {
+        add_belt(robot, shape.part, contact);
+    }
+    return contact;
+}
+
+}  // namespace
+
+std::vector<Contact> collect_contacts(const Robot &robot, const btDispatcher &dispatcher,
+                                      const std::vector<Contact> &previous) {
+    std::vector<Contact> contacts;
+    auto &source = const_cast<btDispatcher &>(dispatcher);  // its getters are not const
+    for (int m = 0; m < source.getNumManifolds(); m++) {
+        const btPersistentManifold &manifold = *source.getManifoldByIndexInternal(m);
+        const auto *first = btMultiBodyLinkCollider::upcast(manifold.getBody0());
+        const auto *second = btMultiBodyLinkCollider::upcast(manifold.getBody1());
+        for (int i = 0; i < manifold.getNumContacts(); i++) {
+            const btManifoldPoint &point = manifold.getContactPoint(i);
+            const Eigen::Vector3d normal = to_eigen(point.m_normalWorldOnB);  // from body 1 into body 0
+            contacts.push_back(first != nullptr ? make_contact(robot, *first, point.m_index0, point, normal)
+                                                : make_contact(robot, *second, point.m_index1, point, -normal));
+        }
+    }
+    std::stable_sort(contacts.begin(), contacts.end(),
+                     [](const Contact &a, const Contact &b) { return a.shape < b.shape; });
+    for (Contact &contact : contacts) {
+        contact.impulse = initial_impulse(contact, previous);
+    }
+    return contacts;
+}
+
+}  // namespace limphome

@@ -1,0 +1,42 @@
+// Contacts of the robot with the ground, as the solver sees them.
+#pragma once
+
+#include <BulletCollision/BroadphaseCollision/btDispatcher.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "robot.h"
+
+namespace limphome {
+
+// Velocities of the robot in Bullet's order: base angular, base linear (of its centre of mass, world axes), joint
+// rates. Unused entries are 0; the fixed size lets the compiler use vector instructions.
+constexpr int max_dofs = 6 + max_actuators;
+using GeneralVector = Eigen::Matrix<double, max_dofs, 1>;
+using GeneralMatrix = Eigen::Matrix<double, max_dofs, max_dofs>;
+
+struct Contact {
+    int shape;                // index into Robot::shapes()
+    Eigen::Vector3d point;    // [m]
+    Eigen::Matrix3d frame;    // columns: normal from the ground into the robot, two tangents
+    double depth;             // of penetration; below 0: gap [m]
+    double friction;          // Coulomb coefficient
+    Eigen::Vector3d impulse;  // of the ground on the robot along the columns of frame [N s]
+    // Velocity of the robot's surface against the ground, along the columns of frame, per unit of each velocity.
+    Eigen::Matrix<double, max_dofs, 3> jacobian;
+};
+
+// Ground under load: a spring and a damper at every point of contact. Without them the load on the many points of a
+// crawler would not be determined, and with it neither would friction.
+struct GroundStiffness {
+    double stiffness;  // [N/m]
+    double damping;    // [N s/m]
+};
+
+// Collects the contacts that Bullet has found, ordered by shape, so that nothing depends on the order in which Bullet
+// keeps them. Impulses start from those of the same shape in `previous`.
+std::vector<Contact> collect_contacts(const Robot &robot, const btDispatcher &dispatcher,
+                                      const std::vector<Contact> &previous);
+
+}  // namespace limphome

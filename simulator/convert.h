@@ -1,0 +1,28 @@
+// Eigen's types from Bullet's and back.
+#pragma once
+
+#include <LinearMath/btTransform.h>
+
+#include <Eigen/Geometry>
+
+namespace limphome {
+
+inline btVector3 to_bullet(const Eigen::Vector3d &v) {
+    return {v.x(), v.y(), v.z()};
+}
+inline Eigen::Vector3d to_eigen(const btVector3 &v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+inline btQuaternion to_bullet(const Eigen::Quaterniond &q) {
+    return {q.x(), q.y(), q.z(), q.w()};
+}
+inline Eigen::Quaterniond to_eigen(const btQuaternion &q) {
+    return {q.w(), q.x(), q.y(), q.z()};
+}
+
+inline btTransform to_bullet(const Eigen::Isometry3d &t) {
+    return btTransform(to_bullet(Eigen::Quaterniond(t.linear())), to_bullet(Eigen::Vector3d(t.translation())));
+}
+
+}  // namespace limphome

@@ -1,0 +1,19 @@
+#include "crawler.h"
+
+#include "convert.h"
+
+namespace limphome {
+
+Eigen::Vector3d belt_direction(const Robot &robot, int crawler, const Eigen::Vector3d &normal) {
+    const btMultibodyLink &sprocket = robot.multibody().getLink(crawler);
+    const btVector3 axis = quatRotate(sprocket.m_cachedWorldTransform.getRotation(), sprocket.getAxisTop(0));
+    return to_eigen(axis).cross(normal);
+}
+
+void add_belt(const Robot &robot, int crawler, Contact &contact) {
+    const Eigen::Vector3d direction = belt_direction(robot, crawler, contact.frame.col(0));
+    const double radius = robot.model().crawlers[static_cast<std::size_t>(crawler)].radius;
+    contact.jacobian.row(6 + crawler) -= radius * (contact.frame.transpose() * direction).transpose();
+}
+
+}  // namespace limphome

@@ -1,0 +1,129 @@
+#include "scene.h"
+
+#include <cmath>
+
+#include "convert.h"
+
+namespace limphome {
+namespace {
+
+constexpr double standard_gravity = 9.81;   // [m/s^2]
+constexpr double static_deflection = 1e-3;  // of the ground under the robot's weight on its crawlers [m]
+constexpr double settling_time = 0.5;       // [s]
+constexpr int ground_group = 1, robot_group = 2;
+
+// Critically damped at the deflection above, so that the robot does not bounce.
+GroundStiffness ground_stiffness(const RobotModel &model) {
+    const double points = 4.0 * static_cast<double>(model.crawlers.size());
+    const double stiffness = model.mass() * standard_gravity / static_deflection / points;
+    return {stiffness, stiffness * 2 * std::sqrt(static_deflection / standard_gravity)};
+}
+
+DriveCondition drive_condition(const settings &s, int actuator) {
+    if (s.failure.actuator == SETTINGS_FAILED_NONE ||
+        actuator != (s.failure.actuator == SETTINGS_FAILED_LEFT ? 0 : 1)) {
+        return DriveCondition::sound;
+    }
+    switch (s.failure.mode) {
+        case SETTINGS_LOCKED:
+            return DriveCondition::locked;
+        case SETTINGS_FREE:
+            return DriveCondition::free;
+        default:
+            return DriveCondition::weak;
+    }
+}
+
+std::vector<Drive> make_drives(const RobotModel &model, const settings &s) {
+    std::vector<Drive> drives;
+    const PidGains gains{s.drive.proportional, s.drive.integral, s.drive.derivative};
+    for (std::size_t a = 0; a < model.actuators.size(); a++) {
+        drives.emplace_back(model.actuators[a], gains, s.simulator.time_step_s, drive_condition(s, static_cast<int>(a)),
+                            s.failure.weak_factor);
+    }
+    return drives;
+}
+
+}  // namespace
+
+Pipeline::Pipeline(btDispatcher *dispatcher, btBroadphaseInterface *broadphase, btMultiBodyConstraintSolver *unused,
+                   btCollisionConfiguration *configuration, Robot &robot, const Solver &solver)
+    : btMultiBodyDynamicsWorld(dispatcher, broadphase, unused, configuration),
+      joints(robot.model().actuators.size()),
+      robot_(robot),
+      solver_(solver) {
+    for (const auto &collider : robot_.colliders()) {
+        addCollisionObject(collider.get(), robot_group, ground_group);
+    }
+    addMultiBody(&robot_.multibody());
+}
+
+void Pipeline::solveConstraints(btContactSolverInfo &info) {
+    solveExternalForces(info);
+    contacts = collect_contacts(robot_, *getDispatcher(), contacts);
+    solver_.solve(robot_.multibody(), joints, contacts, info.m_timeStep);
+}
+
+Scene::Scene(const RobotModel &model, const settings &s)
+    : robot(model, s.simulator.friction_crawler, s.simulator.friction_arm),
+      drives(make_drives(model, s)),
+      dispatcher_(&configuration_),
+      ground_shape_(btVector3(0, 0, 1), 0),
+      pipeline_(&dispatcher_, &broadphase_, &unused_solver_, &configuration_, robot,
+                Solver(static_cast<int>(s.simulator.solver_iterations), ground_stiffness(model))),
+      time_step_(s.simulator.time_step_s) {
+    // See contacts of all shapes from the same distance, not from one that depends on their size.
+    dispatcher_.setDispatcherFlags(0);
+    ground_.setCollisionShape(&ground_shape_);
+    pipeline_.addCollisionObject(&ground_, ground_group, robot_group);
+    set_gravity({0, 0, -standard_gravity});
+    settle();
+}
+
+void Scene::set_gravity(const Eigen::Vector3d &gravity) {
+    pipeline_.setGravity(to_bullet(gravity));
+}
+
+// Lets the robot sink in to its equilibrium, then puts it at the origin, at rest.
+void Scene::settle() {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    pose.translation().z() = -static_deflection;
+    robot.set_pose(pose);
+    for (double time = 0; time < settling_time; time += time_step_) {
+        for (Contact &contact : pipeline_.contacts) {
+            contact.impulse.tail<2>().setZero();  // locks no friction in between the points of contact
+        }
+        step();
+    }
+    robot.multibody().clearVelocities();
+    pose = robot.pose();
+    const Eigen::Vector3d moved(pose.translation().x(), pose.translation().y(), 0);
+    pose.translation() -= moved;
+    robot.set_pose(pose);
+    for (Contact &contact : pipeline_.contacts) {
+        contact.point -= moved;
+    }
+    for (std::size_t a = 0; a < drives.size(); a++) {
+        robot.multibody().setJointPos(static_cast<int>(a), robot.model().actuators[a].home);
+        drives[a].clear_integral();
+    }
+}
+
+void Scene::step() {
+    const btMultiBody &multibody = robot.multibody();
+    for (std::size_t a = 0; a < drives.size(); a++) {
+        const int joint = static_cast<int>(a);
+        pipeline_.joints[a] = drives[a].begin_step(multibody.getJointPos(joint), multibody.getJointVel(joint));
+    }
+    // Bullet keeps points of earlier steps that are still near; on these shapes they are out of date.
+    for (int i = 0; i < dispatcher_.getNumManifolds(); i++) {
+        dispatcher_.getManifoldByIndexInternal(i)->clearManifold();
+    }
+    pipeline_.stepSimulation(time_step_, 0);
+    for (std::size_t a = 0; a < drives.size(); a++) {
+        drives[a].end_step(pipeline_.joints[a], multibody.getJointVel(static_cast<int>(a)));
+    }
+}
+
+}  // namespace limphome

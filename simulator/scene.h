@@ -1,0 +1,66 @@
+// All that has a state in the simulation: robot, drives, contacts and what Bullet keeps. A new one resets the world.
+#pragma once
+
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <btBulletDynamicsCommon.h>
+#include <settings.h>
+
+#include <vector>
+
+#include "contact.h"
+#include "drive.h"
+#include "robot.h"
+#include "solver.h"
+
+namespace limphome {
+
+// Bullet's pipeline for a single robot that never sleeps: Bullet finds the contacts, computes the articulated dynamics
+// and integrates; drives, stops and contacts are left to Solver.
+class Pipeline final : public btMultiBodyDynamicsWorld {
+   public:
+    Pipeline(btDispatcher *dispatcher, btBroadphaseInterface *broadphase, btMultiBodyConstraintSolver *unused,
+             btCollisionConfiguration *configuration, Robot &robot, const Solver &solver);
+
+    std::vector<JointConstraint> joints;  // one per actuator
+    std::vector<Contact> contacts;        // of the last step
+
+   private:
+    void solveConstraints(btContactSolverInfo &info) override;
+    // Not needed for one robot.
+    void predictUnconstraintMotion(btScalar) override {}
+    void createPredictiveContacts(btScalar) override {}
+    void calculateSimulationIslands() override {}
+    void updateActivationState(btScalar) override {}
+
+    Robot &robot_;
+    Solver solver_;
+};
+
+class Scene {
+   public:
+    // The robot stands at the origin, facing +y, at rest, its arm at its home angles.
+    Scene(const RobotModel &model, const settings &configuration);
+
+    void set_gravity(const Eigen::Vector3d &gravity);
+    void step();
+
+    const std::vector<Contact> &contacts() const { return pipeline_.contacts; }
+
+    Robot robot;
+    std::vector<Drive> drives;
+
+   private:
+    void settle();
+
+    btDefaultCollisionConfiguration configuration_;
+    btCollisionDispatcher dispatcher_;
+    btDbvtBroadphase broadphase_;
+    btMultiBodyConstraintSolver unused_solver_;  // Bullet insists on one
+    btStaticPlaneShape ground_shape_;
+    btCollisionObject ground_;
+    Pipeline pipeline_;
+    double time_step_;
+};
+
+}  // namespace limphome

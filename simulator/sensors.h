@@ -1,0 +1,13 @@
+// What the robot's own sensors tell.
+#pragma once
+
+#include <limphome/robot_state_t.hpp>
+
+#include "world.h"
+
+namespace limphome {
+
+// Fills all fields but utime, session, seq and lockstep.
+void read_sensors(const World &world, robot_state_t &state);
+
+}  // namespace limphome

@@ -1,0 +1,61 @@
+// Finds the impulses of drives, stops and contacts of one time step.
+//
+// Drives that reach their wanted rate are taken out of the equations exactly; what is left, the base with a few
+// contacts, is solved by projected Gauss-Seidel: each contact in turn is brought to a state that fulfils the law of its
+// ground spring and Coulomb's law of friction, with friction opposite to the slip.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <vector>
+
+#include "contact.h"
+#include "drive.h"
+
+namespace limphome {
+
+class Solver {
+   public:
+    Solver(int iterations, const GroundStiffness &ground) : iterations_(iterations), ground_(ground) {}
+
+    // Changes the velocities of `multibody` and fills in the impulses. Forces other than those must have been applied
+    // by Bullet in this step already.
+    void solve(btMultiBody &multibody, std::vector<JointConstraint> &joints, std::vector<Contact> &contacts,
+               double time_step);
+
+   private:
+    // What relaxing one contact needs. Normal law: velocity + compliance * impulse = push where impulse > 0, else >=
+    // push.
+    struct ContactRow {
+        Eigen::Matrix<double, max_dofs, 3> response;  // velocities per unit impulse along each axis
+        Eigen::Matrix3d effect;                       // relative velocity per unit impulse
+        Eigen::Matrix2d sticking;                     // inverse of its tangential block
+        double push;                                  // [m/s]
+        double slip_step;                             // impulse per slip velocity in the projection [kg]
+    };
+
+    void invert_mass(const btMultiBody &multibody);
+    void hold_joints(const std::vector<JointConstraint> &joints);
+    void prepare_contacts(const std::vector<Contact> &contacts, double time_step);
+    void apply_initial_impulses(const std::vector<JointConstraint> &joints, const std::vector<Contact> &contacts);
+    void iterate(std::vector<JointConstraint> &joints, std::vector<Contact> &contacts);
+    double relax(JointConstraint &joint, int dof);
+    double relax(Contact &contact, const ContactRow &row);
+    bool release_overloaded(std::vector<JointConstraint> &joints, const std::vector<Contact> &contacts);
+
+    int iterations_;
+    GroundStiffness ground_;
+    double compliance_ = 0;  // of the ground over one step [1/kg]
+    int dofs_ = 0;
+    GeneralVector free_;      // velocities without drives, stops and contacts
+    GeneralVector velocity_;  // velocities so far
+    GeneralMatrix inverse_mass_;
+    GeneralMatrix held_inverse_;  // the same with the held joints at their targets
+    std::vector<int> held_;       // joints
+    Eigen::Matrix<double, max_dofs, Eigen::Dynamic, 0, max_dofs, max_actuators> held_response_;
+    Eigen::LLT<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_actuators, max_actuators>> held_mass_;
+    std::vector<ContactRow> rows_;
+    btAlignedObjectArray<btScalar> scratch_numbers_;
+    btAlignedObjectArray<btVector3> scratch_vectors_;
+};
+
+}  // namespace limphome
