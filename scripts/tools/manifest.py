@@ -26,11 +26,12 @@ class Part:
         self.started = time.strftime("%Y-%m-%dT%H:%M:%S%z")
         self._began = time.monotonic()
 
-    def measure(self, result):
-        """Call when both processes have ended. `result`: finished, interrupted or failed."""
+    def measure(self, result, simulated_s):
+        """Call when both processes have ended. `result`: finished, interrupted or failed; `simulated_s`: duration of
+        all episodes done."""
         self.wall_time_s = time.monotonic() - self._began
         part = {"started": self.started, "command_line": sys.orig_argv, "result": result,
-                "wall_time_s": round(self.wall_time_s, 3)}
+                "wall_time_s": round(self.wall_time_s, 3), "simulated_time_s": simulated_s}
         statuses = last_statuses(self.folder.messages)
         new = [statuses[process] for process in (status_t.PLANT, status_t.CONTROLLER)
                if process in statuses and not _equal(statuses[process], self.before.get(process))]
@@ -52,7 +53,6 @@ def measures(plant, controller):
     """What the two processes say of their own work."""
     busy = sum((each.wall_time - each.wait_time) / each.wall_time for each in (plant, controller))
     return {
-        "simulated_time_s": plant.simulated_time,
         "decisions": controller.decisions,
         # in lockstep one of the two works while the other waits; where both wait, a message is under way
         "link_share": 1.0 - busy,

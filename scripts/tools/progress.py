@@ -19,7 +19,7 @@ def clock(seconds):
 
 
 class Progress:
-    """Feed it rows of episodes.csv as they come."""
+    """Feed it rows of episodes.csv as they come; those up to episode `done` are of an earlier part of the run."""
 
     def __init__(self, total, done=0, quiet=False, stream=sys.stderr):
         self.total = total
@@ -35,6 +35,8 @@ class Progress:
     def update(self, episodes):
         now = time.monotonic()
         for episode in episodes:
+            if episode.episode <= self.done:
+                continue
             self.done = episode.episode
             self.simulated_s += episode.duration_s
             self.recent.append((episode, now))

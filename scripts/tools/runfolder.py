@@ -59,6 +59,10 @@ class RunFolder:
     def read_episodes(self):
         return EpisodeTail(self.episodes).read_new()
 
+    def newest_checkpoint(self):
+        """Episode after which the newest checkpoint was taken; 0 where there is none."""
+        return max((int(file.stem.removeprefix("episode_")) for file in self.checkpoints.glob("episode_*.lcm")), default=0)
+
 
 class EpisodeTail:
     """Follows episodes.csv while it is written."""

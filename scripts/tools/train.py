@@ -46,17 +46,18 @@ def new_folder(args):
 
 def resumed_folder(args):
     folder = runfolder.existing(args.resume, "manifest", "episodes", "checkpoints")
+    if folder.newest_checkpoint() == 0:
+        raise runfolder.InputError(f"{args.resume}: holds no checkpoint to go on from")
     if args.episodes is not None:
         folder.config.write_text(runfolder.resolve_settings(folder.config, [f"learning.episodes={args.episodes}"]))
     return folder
 
 
-def train(folder, url, resume, quiet):
+def train(folder, url, progress, resume):
     """Runs the pair to its end; what it raises is why it did not get there."""
-    total = int(folder.settings()["learning"]["episodes"])
     tail = runfolder.EpisodeTail(folder.episodes)
+    tail.read_new()  # of a resumed run, told before
     with Pair(folder, url, ["--resume"] if resume else []) as pair:
-        progress = Progress(total, quiet=quiet)
         try:
             while not pair.finished():
                 progress.update(tail.read_new())
@@ -81,16 +82,19 @@ def main():
         return 1
     print(f"training in {paths.shown(folder.path)}", file=sys.stderr)
     part = Part(folder)
+    total = int(folder.settings()["learning"]["episodes"])
+    progress = Progress(total, done=folder.newest_checkpoint() if args.resume else 0, quiet=args.quiet)
     result, code = "finished", 0
     try:
-        train(folder, url, bool(args.resume), args.quiet)
+        train(folder, url, progress, bool(args.resume))
     except Interrupted as interrupted:
         result, code = "interrupted", interrupted.exit_code
-        print("interrupted; the run folder can be resumed from its newest checkpoint", file=sys.stderr)
+        print(f"interrupted; scripts/train --resume {paths.shown(folder.path)} goes on from episode "
+              f"{folder.newest_checkpoint()}", file=sys.stderr)
     except PairFailed as failure:
         result, code = "failed", failure.exit_code
         print(failure, file=sys.stderr)
-    write_manifest(folder, part.measure(result))
+    write_manifest(folder, part.measure(result, progress.simulated_s))
     draw(folder)
     if code == 0:
         print(f"done in {clock(part.wall_time_s)}: {paths.shown(folder.path)}", file=sys.stderr)

