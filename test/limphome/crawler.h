@@ -1,0 +1,16 @@
+/* The robot of config/crawler.urdf as the library's structs, and states of it. */
+#ifndef LIMPHOME_TEST_CRAWLER_H
+#define LIMPHOME_TEST_CRAWLER_H
+
+#include "limphome/limphome.h"
+
+/* Actuators left and right crawler, swing, boom, arm; supports the four of the crawlers, then the tip. */
+lh_robot crawler_robot(void);
+
+/* As in the paper with the left crawler failed: right crawler, swing, boom, arm. */
+lh_controlled crawler_controlled(void);
+
+/* Level at (x, y), arm in its initial pose, no torque. */
+lh_state crawler_state(float x, float y, float heading);
+
+#endif

@@ -1,0 +1,580 @@
+#include "limphome/controller.h"
+
+#include <stddef.h>
+
+#include "crawler.h"
+#include "reference.h"
+#include "test.h"
+
+/* Too large for some stacks. */
+static lh_controller controller;
+static lh_controller other;
+
+static const float facing_y = (float)M_PI_2;
+
+static void init(lh_controller *c, const lh_config *config) {
+    const lh_robot robot = crawler_robot();
+    const lh_controlled controlled = crawler_controlled();
+    ck_assert_int_eq(lh_controller_init(c, config, &robot, &controlled), LH_OK);
+}
+
+static lh_decision step(lh_controller *c, const lh_state *state) {
+    lh_decision decision;
+    ck_assert_int_eq(lh_controller_step(c, state, &decision), LH_OK);
+    return decision;
+}
+
+/* The level robot at (x, y) facing +y. */
+static lh_decision step_at(lh_controller *c, float x, float y) {
+    const lh_state state = crawler_state(x, y, facing_y);
+    return step(c, &state);
+}
+
+static lh_state tumbled_state(void) {
+    lh_state state = crawler_state(0.0f, 0.5f, facing_y);
+    state.orientation = lh_quat_multiply(state.orientation, lh_quat_about((lh_vec3){1, 0, 0}, 1.2f));
+    return state;
+}
+
+/* A toy plant: crawler and arm do what they are told, only one crawler pulls, and a raised boom topples it. */
+typedef struct toy {
+    float x, y, heading;
+    float joint[3];
+    float torque;
+} toy;
+
+static toy toy_start(void) {
+    return (toy){.heading = facing_y, .joint = {0.0f, 0.6f, -1.5f}};
+}
+
+static lh_state toy_state(const toy *p) {
+    lh_state state = crawler_state(p->x, p->y, p->heading);
+    memcpy(&state.actuator_position[2], p->joint, sizeof p->joint);
+    state.actuator_effort[1] = p->torque;
+    const float roll = p->joint[1] > 1.15f ? 1.2f : 0.1f * p->joint[0];
+    state.orientation = lh_quat_multiply(state.orientation, lh_quat_about((lh_vec3){1, 0, 0}, roll));
+    return state;
+}
+
+static void toy_move(toy *p, const float *velocity) {
+    const float travel = 0.5f * velocity[1];
+    p->x += travel * lh_cos(p->heading);
+    p->y += travel * lh_sin(p->heading);
+    p->heading = lh_wrap_angle(p->heading + 0.2f * travel * (1.0f - p->joint[0]));
+    p->torque = 1000.0f * velocity[1];
+    const float low[] = {-2.6f, -0.6f, -2.4f};
+    const float high[] = {2.6f, 1.2f, 0.0f};
+    for (int32_t k = 0; k < 3; ++k) {
+        p->joint[k] = fminf(fmaxf(p->joint[k] + 0.5f * velocity[2 + k], low[k]), high[k]);
+    }
+}
+
+/* One turn of the loop of controller.h. */
+static lh_decision toy_turn(lh_controller *c, toy *plant) {
+    const lh_state state = toy_state(plant);
+    const lh_decision decision = step(c, &state);
+    if (decision.reset) {
+        *plant = toy_start();
+    } else {
+        toy_move(plant, decision.velocity);
+    }
+    return decision;
+}
+
+START_TEST(defaults_are_those_of_the_paper) {
+    const lh_config config = lh_config_default();
+    ck_assert(config.learn && !config.greedy);
+    ck_assert_float_eq(config.crawler_speed, 0.3f);
+    ck_assert_float_eq(config.joint_speed, 0.3f);
+    ck_assert_int_eq(lh_config_validate(&config), LH_OK);
+}
+END_TEST
+
+START_TEST(bad_fields_are_named) {
+    const lh_robot robot = crawler_robot();
+    const lh_controlled controlled = crawler_controlled();
+    memset(&controller, 0x5a, sizeof controller);
+    memset(&other, 0x5a, sizeof other);
+#define BAD(field, value, error)                                                                \
+    do {                                                                                        \
+        lh_config config = lh_config_default();                                                 \
+        config.field = value;                                                                   \
+        ck_assert_int_eq(lh_config_validate(&config), error);                                   \
+        ck_assert_int_eq(lh_controller_init(&controller, &config, &robot, &controlled), error); \
+        ck_assert_mem_eq(&controller, &other, sizeof controller);                               \
+    } while (0)
+    BAD(crawler_speed, 0.0f, LH_ERROR_SPEED);
+    BAD(crawler_speed, NAN, LH_ERROR_SPEED);
+    BAD(joint_speed, 2.1f, LH_ERROR_SPEED);
+    BAD(temperature_floor, 0.0f, LH_ERROR_LIMIT);
+    BAD(temperature_floor, 11.0f, LH_ERROR_LIMIT);
+    BAD(support_tolerance, NAN, LH_ERROR_LIMIT);
+    BAD(support_tolerance, 1.1f, LH_ERROR_LIMIT);
+    BAD(learner.learning_rate, -0.1f, LH_ERROR_RATE);
+    BAD(learner.network.units, 0, LH_ERROR_UNITS);
+    BAD(learner.network.width_floor, 0.0f, LH_ERROR_LIMIT);
+    BAD(learner.network.initial_weight, INFINITY, LH_ERROR_INITIAL);
+    BAD(reward.tumble, 1.0f, LH_ERROR_REWARD);
+    BAD(episode.step_limit, 0, LH_ERROR_EPISODE);
+#undef BAD
+}
+END_TEST
+
+START_TEST(controlled_actuators_must_ascend_within_the_robot) {
+    const lh_config config = lh_config_default();
+    lh_robot robot = crawler_robot();
+    const lh_controlled bad[] = {
+        {.count = 0},
+        {.count = -1},
+        {.count = 6, .index = {0, 1, 2, 3, 4, 5}},
+        {.count = 2, .index = {2, 1}},
+        {.count = 2, .index = {2, 2}},
+        {.count = 1, .index = {5}},
+        {.count = 1, .index = {-1}},
+        {.count = INT32_MAX},
+    };
+    memset(&controller, 0x5a, sizeof controller);
+    memset(&other, 0x5a, sizeof other);
+    for (int32_t k = 0; k < COUNT(bad); ++k) {
+        ck_assert_int_eq(lh_controller_init(&controller, &config, &robot, &bad[k]), LH_ERROR_ACTUATORS);
+    }
+    const lh_controlled controlled = crawler_controlled();
+    robot.links[1].mass = NAN;
+    ck_assert_int_eq(lh_controller_init(&controller, &config, &robot, &controlled), LH_ERROR_ROBOT);
+    ck_assert_mem_eq(&controller, &other, sizeof controller);
+}
+END_TEST
+
+START_TEST(first_decision) {
+    const lh_config config = lh_config_default();
+    init(&controller, &config);
+    const lh_decision d = step_at(&controller, 3.0f, 4.0f);
+    ck_assert(!d.stepped && !d.learned && !d.ended && !d.reset);
+    ck_assert_int_eq(d.episode, 1);
+    ck_assert_int_eq(d.step, 0);
+    ck_assert_int_eq(d.num_inputs, 10);
+    expect_near(d.goal_distance, 2.0, 1e-6);
+    expect_near(d.lateral_error, 0.0, 1e-6);
+    expect_near(d.temperature, temperature[0], 1e-5);
+    expect_near(d.stability_margin, initial_margin[0], 2e-6);
+    expect_near(d.choice.probability, 1.0 / 81.0, 1e-7); /* all Q are 0 */
+    ck_assert_float_eq(d.velocity[0], 0.0f);             /* the failed crawler */
+    int8_t levels[4];
+    lh_action_levels(d.choice.action, 4, levels);
+    for (int32_t k = 0; k < 4; ++k) {
+        ck_assert_float_eq(d.velocity[k + 1], lh_action_velocity(levels[k], 0.3f));
+        ck_assert_float_eq(d.inputs[6 + k], lh_action_input(levels[k]));
+    }
+}
+END_TEST
+
+START_TEST(crawlers_and_joints_have_their_own_speed) {
+    lh_config config = lh_config_default();
+    config.crawler_speed = 0.5f;
+    config.joint_speed = 0.25f;
+    init(&controller, &config);
+    bool seen[2][3] = {{false}};
+    for (int32_t i = 0; i < 200; ++i) {
+        const lh_decision d = step_at(&controller, 0.0f, 0.0f);
+        for (int32_t k = 1; k < 5; ++k) {
+            const float speed = k == 1 ? 0.5f : 0.25f;
+            const int32_t level = (int32_t)(d.velocity[k] / speed) + 1;
+            ck_assert_float_eq(d.velocity[k], (float)(level - 1) * speed);
+            seen[k == 1][level] = true;
+        }
+    }
+    for (int32_t i = 0; i < 6; ++i) {
+        ck_assert(seen[i / 3][i % 3]);
+    }
+}
+END_TEST
+
+/* Q, target and TD error of one ordinary step, from the library's own parts. */
+START_TEST(one_step_is_rewarded_and_learned) {
+    lh_config config = lh_config_default();
+    config.learner.network.initial_weight = 0.3f;
+    init(&controller, &config);
+    const lh_decision first = step_at(&controller, 0.0f, 0.0f);
+    const lh_network before = controller.learner.network;
+    float states[LH_MAX_STATE_INPUTS];
+    memcpy(states, controller.inputs, sizeof states);
+
+    lh_state state = crawler_state(0.05f, 0.1f, facing_y + 0.02f);
+    state.actuator_effort[1] = 640.0f;
+    const lh_decision d = step(&controller, &state);
+    ck_assert(d.stepped && d.learned && !d.ended);
+    ck_assert_int_eq(d.step, 1);
+    expect_near(d.reward.motion, 8 * 0.1 - 2 * 0.05 - 10 * 0.02, 1e-5);
+    expect_near(d.reward.stability, -exp(-d.stability_margin), 1e-6);
+    ck_assert_float_eq(d.reward.goal, 0.0f);
+    ck_assert_float_eq(d.reward.tumble, 0.0f);
+    expect_near(d.goal_distance, 1.9, 1e-6);
+    expect_near(d.lateral_error, -0.05, 1e-6);
+
+    /* the target from the network as it was */
+    other = controller;
+    other.learner.network = before;
+    const float q_max = lh_learner_evaluate(&other.learner, d.inputs);
+    const float expected = lh_reward_total(&d.reward) + 0.9f * q_max - lh_network_value(&before, first.inputs, NULL);
+    expect_near(d.td_error, expected, 1e-6);
+    lh_learner_learn(&other.learner, states, first.choice.action, lh_reward_total(&d.reward), q_max, false);
+    ck_assert_mem_eq(&other.learner.network, &controller.learner.network, sizeof before);
+    ck_assert_mem_ne(&before, &controller.learner.network, sizeof before);
+
+    /* the choice from the network as it is now */
+    ck_assert_float_eq(d.choice.q_max, lh_learner_evaluate(&other.learner, d.inputs));
+}
+END_TEST
+
+START_TEST(goal_is_terminal_and_the_next_line_lies_ahead) {
+    lh_config config = lh_config_default();
+    config.learner.network.initial_weight = 0.3f;
+    init(&controller, &config);
+    const lh_decision first = step_at(&controller, 0.0f, 0.0f);
+    const float q = lh_network_value(&controller.learner.network, first.inputs, NULL);
+    const lh_state state = crawler_state(-0.3f, 2.1f, facing_y + 0.5f);
+    const lh_decision d = step(&controller, &state);
+    ck_assert(d.stepped && d.learned && d.ended && !d.reset);
+    expect_near(d.reward.goal, 10.0 * exp(-0.3), 1e-5);
+    expect_near(d.td_error, (double)lh_reward_total(&d.reward) - q, 1e-5); /* no next state */
+    ck_assert_int_eq(d.summary.number, 1);
+    ck_assert_int_eq(d.summary.outcome, LH_OUTCOME_GOAL);
+    ck_assert_int_eq(d.summary.steps, 1);
+    expect_near(d.summary.lateral_error, 0.3, 1e-6);
+    expect_near(d.summary.heading_change, 0.5, 1e-6);
+    expect_near(d.summary.temperature, temperature[0], 1e-5);
+    ck_assert_float_eq(d.summary.goal_distance, 2.0f);
+    ck_assert_float_eq(d.summary.start.y, 0.0f);
+    ck_assert_float_eq(lh_reward_total(&d.summary.total), lh_reward_total(&d.reward));
+
+    /* episode 2 has begun here, along the new heading */
+    ck_assert_int_eq(d.episode, 2);
+    ck_assert_int_eq(d.step, 0);
+    expect_near(d.goal_distance, 2.0, 1e-6);
+    expect_near(d.temperature, temperature[1], 1e-5);
+    const lh_state ahead = crawler_state(-0.3f - (float)sin(0.5), 2.1f + (float)cos(0.5), facing_y + 0.5f);
+    const lh_decision next = step(&controller, &ahead);
+    ck_assert(next.stepped && !next.ended);
+    expect_near(next.goal_distance, 1.0, 1e-5);
+    expect_near(next.lateral_error, 0.0, 1e-5);
+    expect_near(next.reward.motion, 8.0, 1e-4);
+}
+END_TEST
+
+START_TEST(tumble_is_punished_terminal_and_reset) {
+    lh_config config = lh_config_default();
+    config.learner.network.initial_weight = 0.3f;
+    init(&controller, &config);
+    const lh_decision first = step_at(&controller, 0.0f, 0.0f);
+    const float q = lh_network_value(&controller.learner.network, first.inputs, NULL);
+    const lh_state tumbled = tumbled_state();
+    const lh_decision d = step(&controller, &tumbled);
+    ck_assert(d.stepped && d.learned && d.ended && d.reset);
+    ck_assert_int_eq(d.summary.outcome, LH_OUTCOME_TUMBLE);
+    ck_assert_float_eq(d.reward.tumble, -10.0f);
+    expect_near(d.reward.motion, 4.0, 1e-5); /* in addition to the step's own */
+    ck_assert_float_lt(d.reward.stability, -1.0f);
+    ck_assert_float_lt(d.stability_margin, 0.0f);
+    expect_near(d.td_error, (double)lh_reward_total(&d.reward) - q, 1e-5);
+    ck_assert_int_eq(d.episode, 1);
+    ck_assert_int_eq(d.num_inputs, 6);
+    for (int32_t k = 0; k < LH_MAX_ACTUATORS; ++k) {
+        ck_assert_float_eq(d.velocity[k], 0.0f);
+    }
+
+    /* the next state begins episode 2; nothing is learned from the way there */
+    const lh_network before = controller.learner.network;
+    const lh_decision next = step_at(&controller, 7.0f, 7.0f);
+    ck_assert(!next.stepped && !next.learned && !next.ended && !next.reset);
+    ck_assert_int_eq(next.episode, 2);
+    expect_near(next.goal_distance, 2.0, 1e-6);
+    ck_assert_mem_eq(&controller.learner.network, &before, sizeof before);
+}
+END_TEST
+
+START_TEST(timeout_goes_on_bootstrapping) {
+    lh_config config = lh_config_default();
+    config.learner.network.initial_weight = 0.3f;
+    config.episode.step_limit = 2;
+    init(&controller, &config);
+    step_at(&controller, 0.0f, 0.0f);
+    const lh_decision first = step_at(&controller, 0.0f, 0.1f);
+    ck_assert(!first.ended);
+    other = controller;
+    const float q = lh_network_value(&other.learner.network, first.inputs, NULL);
+    const lh_decision d = step_at(&controller, 0.0f, 0.2f);
+    ck_assert(d.ended && !d.reset);
+    ck_assert_int_eq(d.summary.outcome, LH_OUTCOME_TIMEOUT);
+    ck_assert_int_eq(d.summary.steps, 2);
+    const float q_max = lh_learner_evaluate(&other.learner, d.inputs);
+    expect_near(d.td_error, lh_reward_total(&d.reward) + 0.9 * q_max - q, 1e-5);
+    expect_near(lh_reward_total(&d.summary.total), (double)lh_reward_total(&first.reward) + lh_reward_total(&d.reward),
+                1e-5);
+    ck_assert_int_eq(d.episode, 2);
+}
+END_TEST
+
+START_TEST(reset_every_so_many_episodes) {
+    lh_config config = lh_config_default();
+    config.episode.reset_every = 3;
+    config.episode.step_limit = 1;
+    init(&controller, &config);
+    step_at(&controller, 0.0f, 0.0f);
+    for (int32_t number = 1; number <= 9; ++number) {
+        const lh_decision d = step_at(&controller, 0.0f, 0.0f);
+        ck_assert(d.ended);
+        ck_assert_int_eq(d.summary.number, number);
+        ck_assert_int_eq(d.reset, number % 3 == 0);
+        if (d.reset) {
+            ck_assert(!step_at(&controller, 0.0f, 0.0f).stepped);
+        }
+    }
+}
+END_TEST
+
+START_TEST(begun_anew_by_the_plant) {
+    const lh_config config = lh_config_default();
+    init(&controller, &config);
+    step_at(&controller, 0.0f, 0.0f);
+    step_at(&controller, 0.0f, 0.5f);
+    lh_controller_begin(&controller);
+    const lh_network before = controller.learner.network;
+    const lh_decision d = step_at(&controller, 0.0f, 0.0f);
+    ck_assert(!d.stepped && !d.ended);
+    ck_assert_int_eq(d.episode, 1); /* the same one */
+    ck_assert_int_eq(d.step, 0);
+    expect_near(d.goal_distance, 2.0, 1e-6);
+    ck_assert_mem_eq(&controller.learner.network, &before, sizeof before);
+}
+END_TEST
+
+START_TEST(invalid_state_changes_nothing) {
+    const lh_config config = lh_config_default();
+    init(&controller, &config);
+    step_at(&controller, 0.0f, 0.0f);
+    other = controller;
+    lh_state bad[4];
+    for (int32_t k = 0; k < COUNT(bad); ++k) {
+        bad[k] = crawler_state(0.0f, 0.1f, facing_y);
+    }
+    bad[0].position[1] = NAN;
+    bad[1].orientation.w = 9.0f;
+    bad[2].num_actuators = 4;
+    bad[3].actuator_position[3] = INFINITY;
+    for (int32_t k = 0; k < COUNT(bad); ++k) {
+        lh_decision d;
+        ck_assert_int_eq(lh_controller_step(&controller, &bad[k], &d), LH_ERROR_STATE);
+        ck_assert_mem_eq(&controller, &other, sizeof controller);
+    }
+    ck_assert(step_at(&controller, 0.0f, 0.1f).stepped);
+}
+END_TEST
+
+START_TEST(without_learning_the_network_stays) {
+    lh_config config = lh_config_default();
+    config.learn = false;
+    config.learner.network.initial_weight = 0.3f;
+    init(&controller, &config);
+    const lh_network before = controller.learner.network;
+    toy plant = toy_start();
+    for (int32_t i = 0; i < 500; ++i) {
+        const lh_decision d = toy_turn(&controller, &plant);
+        ck_assert(!d.learned);
+        ck_assert_float_eq(d.td_error, 0.0f);
+    }
+    ck_assert_mem_eq(&controller.learner.network, &before, sizeof before);
+    ck_assert_int_gt(controller.episode.number, 1);
+}
+END_TEST
+
+START_TEST(greedy_takes_a_best_action) {
+    lh_config config = lh_config_default();
+    config.greedy = true;
+    init(&controller, &config);
+    const lh_random before = controller.learner.random;
+    toy plant = toy_start();
+    for (int32_t i = 0; i < 300; ++i) {
+        const lh_decision d = toy_turn(&controller, &plant);
+        if (!d.reset) {
+            ck_assert_float_eq(d.choice.q, d.choice.q_max);
+            ck_assert_float_eq(d.choice.probability, 1.0f);
+        }
+    }
+    ck_assert_mem_eq(&controller.learner.random, &before, sizeof before);
+}
+END_TEST
+
+START_TEST(limited_sensor_values_are_counted) {
+    const lh_config config = lh_config_default();
+    init(&controller, &config);
+    lh_state state = crawler_state(0.0f, 0.0f, facing_y);
+    step(&controller, &state);
+    ck_assert_int_eq(controller.clamped, 0);
+    state.actuator_effort[1] = 2000.0f;
+    state.actuator_position[4] = 0.01f;
+    step(&controller, &state);
+    step(&controller, &state);
+    ck_assert_int_eq(controller.clamped, 4);
+}
+END_TEST
+
+/* As a function of the states alone: equal seeds give equal bytes, others do not. */
+START_TEST(equal_runs_are_equal_bit_by_bit) {
+    lh_config config = lh_config_default();
+    init(&controller, &config);
+    init(&other, &config);
+    toy a = toy_start();
+    toy b = toy_start();
+    for (int32_t i = 0; i < 2000; ++i) {
+        const lh_decision da = toy_turn(&controller, &a);
+        const lh_decision db = toy_turn(&other, &b);
+        ck_assert_mem_eq(&da, &db, sizeof da);
+    }
+    ck_assert_mem_eq(&controller, &other, sizeof other);
+    config.seed = 2;
+    init(&other, &config);
+    ck_assert_mem_ne(&controller.learner.network, &other.learner.network, sizeof other.learner.network);
+}
+END_TEST
+
+/* Saved where a reset was asked for, then both go on: the unbroken run, and a fresh controller that is restored. */
+START_TEST(restored_run_is_equal_bit_by_bit) {
+    lh_config config = lh_config_default();
+    config.episode.reset_every = 4;
+    config.episode.step_limit = 30;
+    init(&controller, &config);
+    toy a = toy_start();
+    lh_decision d;
+    int32_t resets = 0;
+    do {
+        d = toy_turn(&controller, &a);
+        resets += d.reset && d.summary.outcome != LH_OUTCOME_TUMBLE;
+    } while (resets < 3 || !d.reset);
+    ck_assert_int_gt(d.summary.number, 10);
+    const lh_network network = controller.learner.network;
+    uint32_t random_state[4];
+    memcpy(random_state, controller.learner.random.s, sizeof random_state);
+
+    init(&other, &config);
+    ck_assert_int_eq(lh_controller_restore(&other, &network, random_state, d.summary.number + 1), LH_OK);
+    toy b = toy_start();
+    for (int32_t i = 0; i < 1000; ++i) {
+        const lh_decision da = toy_turn(&controller, &a);
+        const lh_decision db = toy_turn(&other, &b);
+        ck_assert_mem_eq(&da, &db, sizeof da);
+    }
+    ck_assert_mem_eq(&controller.learner.network, &other.learner.network, sizeof network);
+    ck_assert_mem_eq(&controller.learner.random, &other.learner.random, sizeof other.learner.random);
+    ck_assert_mem_eq(&controller.episode, &other.episode, sizeof other.episode);
+}
+END_TEST
+
+START_TEST(bad_checkpoints_change_nothing) {
+    const lh_config config = lh_config_default();
+    init(&controller, &config);
+    step_at(&controller, 0.0f, 0.0f);
+    const lh_network good = controller.learner.network;
+    lh_network bad = good;
+    bad.weight[3] = NAN;
+    lh_network small = good;
+    small.units = 49;
+    const uint32_t random_state[4] = {1, 2, 3, 4};
+    const uint32_t zeros[4] = {0};
+    other = controller;
+    ck_assert_int_eq(lh_controller_restore(&controller, &good, random_state, 0), LH_ERROR_EPISODE);
+    ck_assert_int_eq(lh_controller_restore(&controller, &good, random_state, INT32_MAX), LH_ERROR_EPISODE);
+    ck_assert_int_eq(lh_controller_restore(&controller, &bad, random_state, 1), LH_ERROR_NETWORK);
+    ck_assert_int_eq(lh_controller_restore(&controller, &small, random_state, 1), LH_ERROR_NETWORK);
+    ck_assert_int_eq(lh_controller_restore(&controller, &good, zeros, 1), LH_ERROR_RANDOM_STATE);
+    ck_assert_mem_eq(&controller, &other, sizeof controller);
+    ck_assert_int_eq(lh_controller_restore(&controller, &good, random_state, 51), LH_OK);
+    ck_assert_int_eq(step_at(&controller, 0.0f, 0.0f).episode, 51);
+}
+END_TEST
+
+/* A robot of eight actuators: six joints on end, two crawlers. */
+START_TEST(works_at_full_capacity) {
+    lh_robot robot = crawler_robot();
+    robot.num_actuators = LH_MAX_ACTUATORS;
+    for (int32_t k = 5; k < LH_MAX_ACTUATORS; ++k) {
+        robot.actuators[k] = (lh_actuator){LH_JOINT, -1.0f, 1.0f, 100.0f};
+        robot.links[robot.num_links] = robot.links[5];
+        robot.links[robot.num_links].parent = robot.num_links - 1;
+        robot.links[robot.num_links].actuator = k;
+        ++robot.num_links;
+    }
+    lh_controlled controlled = {.count = LH_MAX_ACTUATORS};
+    for (int32_t k = 0; k < LH_MAX_ACTUATORS; ++k) {
+        controlled.index[k] = k;
+    }
+    lh_config config = lh_config_default();
+    config.learner.network.units = LH_MAX_UNITS;
+    ck_assert_int_eq(lh_controller_init(&controller, &config, &robot, &controlled), LH_OK);
+    lh_state state = crawler_state(0.0f, 0.0f, facing_y);
+    state.num_actuators = LH_MAX_ACTUATORS;
+    for (int32_t i = 0; i < 20; ++i) {
+        const lh_decision d = step(&controller, &state);
+        ck_assert_int_eq(d.num_inputs, LH_MAX_INPUTS);
+        ck_assert(d.choice.action >= 0 && d.choice.action < 6561);
+        state.position[1] += 0.01f;
+    }
+}
+END_TEST
+
+/* A reward for driving forward must show: after learning on the toy, the greedy policy drives forward. */
+START_TEST(learns_to_drive_forward) {
+    lh_config config = lh_config_default();
+    config.learner.learning_rate = 1.0f;
+    config.learner.network.exact_gradient = true;
+    config.learner.network.rate_weight = 0.05f;
+    config.learner.network.rate_centre = config.learner.network.rate_width = 0.0f;
+    config.reward.tumble = -1.0f;
+    init(&controller, &config);
+    toy plant = toy_start();
+    for (int32_t i = 0; i < 6000; ++i) {
+        toy_turn(&controller, &plant);
+    }
+    controller.config.greedy = true;
+    controller.config.learn = false;
+    lh_controller_begin(&controller);
+    plant = toy_start();
+    int32_t forward = 0;
+    for (int32_t i = 0; i < 100; ++i) {
+        forward += toy_turn(&controller, &plant).velocity[1] > 0.0f;
+    }
+    ck_assert_int_ge(forward, 90);
+}
+END_TEST
+
+Suite *suite(void) {
+    Suite *s = suite_create("controller");
+    TCase *t = tcase_create("configuration");
+    tcase_add_test(t, defaults_are_those_of_the_paper);
+    tcase_add_test(t, bad_fields_are_named);
+    tcase_add_test(t, controlled_actuators_must_ascend_within_the_robot);
+    suite_add_tcase(s, t);
+    t = tcase_create("decisions");
+    tcase_add_test(t, first_decision);
+    tcase_add_test(t, crawlers_and_joints_have_their_own_speed);
+    tcase_add_test(t, one_step_is_rewarded_and_learned);
+    tcase_add_test(t, without_learning_the_network_stays);
+    tcase_add_test(t, greedy_takes_a_best_action);
+    tcase_add_test(t, limited_sensor_values_are_counted);
+    tcase_add_test(t, invalid_state_changes_nothing);
+    tcase_add_test(t, works_at_full_capacity);
+    tcase_add_test(t, learns_to_drive_forward);
+    suite_add_tcase(s, t);
+    t = tcase_create("episodes");
+    tcase_add_test(t, goal_is_terminal_and_the_next_line_lies_ahead);
+    tcase_add_test(t, tumble_is_punished_terminal_and_reset);
+    tcase_add_test(t, timeout_goes_on_bootstrapping);
+    tcase_add_test(t, reset_every_so_many_episodes);
+    tcase_add_test(t, begun_anew_by_the_plant);
+    suite_add_tcase(s, t);
+    t = tcase_create("reproduction");
+    tcase_add_test(t, equal_runs_are_equal_bit_by_bit);
+    tcase_add_test(t, restored_run_is_equal_bit_by_bit);
+    tcase_add_test(t, bad_checkpoints_change_nothing);
+    suite_add_tcase(s, t);
+    return s;
+}
