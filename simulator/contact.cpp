@@ -32,11 +32,8 @@ void fill_jacobian(const btMultiBody &multibody, int link, Contact &contact) {
         contact.jacobian.col(column).segment<3>(3) = contact.frame.col(column);
     }
     for (int joint = link; joint >= 0; joint = multibody.getParent(joint)) {
-        const btMultibodyLink &moved = multibody.getLink(joint);
-        const btTransform &frame = moved.m_cachedWorldTransform;
-        const Eigen::Vector3d axis = to_eigen(quatRotate(frame.getRotation(), moved.getAxisTop(0)));
-        const Eigen::Vector3d pivot = to_eigen(frame * -moved.m_dVector);
-        contact.jacobian.row(6 + joint) = axis.cross(contact.point - pivot).transpose() * contact.frame;
+        const JointAxis axis = joint_axis(multibody, joint);
+        contact.jacobian.row(6 + joint) = axis.direction.cross(contact.point - axis.pivot).transpose() * contact.frame;
     }
 }
 
@@ -68,25 +65,25 @@ Contact make_contact(const Robot &robot, const btMultiBodyLinkCollider &collider
 
 }  // namespace
 
-std::vector<Contact> collect_contacts(const Robot &robot, const btDispatcher &dispatcher,
+std::vector<Contact> collect_contacts(const Robot &robot, btDispatcher &dispatcher,
                                       const std::vector<Contact> &previous) {
     std::vector<Contact> contacts;
-    auto &source = const_cast<btDispatcher &>(dispatcher);  // its getters are not const
-    for (int m = 0; m < source.getNumManifolds(); m++) {
-        const btPersistentManifold &manifold = *source.getManifoldByIndexInternal(m);
+    contacts.reserve(robot.shapes().size());
+    const auto add = [&](const Contact &contact) {
+        const auto place = std::upper_bound(contacts.begin(), contacts.end(), contact,
+                                            [](const Contact &a, const Contact &b) { return a.shape < b.shape; });
+        contacts.insert(place, contact)->impulse = initial_impulse(contact, previous);
+    };
+    for (int m = 0; m < dispatcher.getNumManifolds(); m++) {
+        const btPersistentManifold &manifold = *dispatcher.getManifoldByIndexInternal(m);
         const auto *first = btMultiBodyLinkCollider::upcast(manifold.getBody0());
         const auto *second = btMultiBodyLinkCollider::upcast(manifold.getBody1());
         for (int i = 0; i < manifold.getNumContacts(); i++) {
             const btManifoldPoint &point = manifold.getContactPoint(i);
             const Eigen::Vector3d normal = to_eigen(point.m_normalWorldOnB);  // from body 1 into body 0
-            contacts.push_back(first != nullptr ? make_contact(robot, *first, point.m_index0, point, normal)
-                                                : make_contact(robot, *second, point.m_index1, point, -normal));
+            add(first != nullptr ? make_contact(robot, *first, point.m_index0, point, normal)
+                                 : make_contact(robot, *second, point.m_index1, point, -normal));
         }
-    }
-    std::stable_sort(contacts.begin(), contacts.end(),
-                     [](const Contact &a, const Contact &b) { return a.shape < b.shape; });
-    for (Contact &contact : contacts) {
-        contact.impulse = initial_impulse(contact, previous);
     }
     return contacts;
 }

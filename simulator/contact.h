@@ -6,15 +6,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "mass_matrix.h"
 #include "robot.h"
 
 namespace limphome {
-
-// Velocities of the robot in Bullet's order: base angular, base linear (of its centre of mass, world axes), joint
-// rates. Unused entries are 0; the fixed size lets the compiler use vector instructions.
-constexpr int max_dofs = 6 + max_actuators;
-using GeneralVector = Eigen::Matrix<double, max_dofs, 1>;
-using GeneralMatrix = Eigen::Matrix<double, max_dofs, max_dofs>;
 
 struct Contact {
     int shape;                // index into Robot::shapes()
@@ -36,7 +31,7 @@ struct GroundStiffness {
 
 // Collects the contacts that Bullet has found, ordered by shape, so that nothing depends on the order in which Bullet
 // keeps them. Impulses start from those of the same shape in `previous`.
-std::vector<Contact> collect_contacts(const Robot &robot, const btDispatcher &dispatcher,
+std::vector<Contact> collect_contacts(const Robot &robot, btDispatcher &dispatcher,
                                       const std::vector<Contact> &previous);
 
 }  // namespace limphome

@@ -1,13 +1,9 @@
 #include "crawler.h"
 
-#include "convert.h"
-
 namespace limphome {
 
 Eigen::Vector3d belt_direction(const Robot &robot, int crawler, const Eigen::Vector3d &normal) {
-    const btMultibodyLink &sprocket = robot.multibody().getLink(crawler);
-    const btVector3 axis = quatRotate(sprocket.m_cachedWorldTransform.getRotation(), sprocket.getAxisTop(0));
-    return to_eigen(axis).cross(normal);
+    return joint_axis(robot.multibody(), crawler).direction.cross(normal);
 }
 
 void add_belt(const Robot &robot, int crawler, Contact &contact) {

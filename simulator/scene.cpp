@@ -44,6 +44,15 @@ std::vector<Drive> make_drives(const RobotModel &model, const settings &s) {
     return drives;
 }
 
+// To Bullet a plane is near everything; look only at what is low enough to touch it.
+void look_near_ground(btBroadphasePair &pair, btCollisionDispatcher &dispatcher, const btDispatcherInfo &info) {
+    const btBroadphaseProxy &first = *pair.m_pProxy0;
+    const btBroadphaseProxy &robot = first.m_collisionFilterGroup == robot_group ? first : *pair.m_pProxy1;
+    if (robot.m_aabbMin.z() < gContactBreakingThreshold) {
+        btCollisionDispatcher::defaultNearCallback(pair, dispatcher, info);
+    }
+}
+
 }  // namespace
 
 Pipeline::Pipeline(btDispatcher *dispatcher, btBroadphaseInterface *broadphase, btMultiBodyConstraintSolver *unused,
@@ -74,6 +83,7 @@ Scene::Scene(const RobotModel &model, const settings &s)
       time_step_(s.simulator.time_step_s) {
     // See contacts of all shapes from the same distance, not from one that depends on their size.
     dispatcher_.setDispatcherFlags(0);
+    dispatcher_.setNearCallback(look_near_ground);
     ground_.setCollisionShape(&ground_shape_);
     pipeline_.addCollisionObject(&ground_, ground_group, robot_group);
     set_gravity({0, 0, -standard_gravity});

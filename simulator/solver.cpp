@@ -14,16 +14,22 @@ constexpr double velocity_tolerance = 1e-7;
 
 void Solver::solve(btMultiBody &multibody, std::vector<JointConstraint> &joints, std::vector<Contact> &contacts,
                    double time_step) {
-    dofs_ = 6 + multibody.getNumDofs();
+    const int dofs = 6 + multibody.getNumDofs();
     free_.setZero();
-    free_.head(dofs_) = Eigen::Map<const Eigen::VectorXd>(multibody.getVelocityVector(), dofs_);
+    free_.head(dofs) = Eigen::Map<const Eigen::VectorXd>(multibody.getVelocityVector(), dofs);
     // Implicit in time: the spring is taken at the depth that the end of the step will have.
     compliance_ = 1 / (time_step * (ground_.stiffness * time_step + ground_.damping));
-    invert_mass(multibody);
+    mass_ = mass_matrix(multibody);
+    inverse_ = rigid_inverse(mass_);
+    for (std::size_t j = 0; j < joints.size(); j++) {
+        if (!joints[j].held) {
+            release(static_cast<int>(j));
+        }
+    }
     do {
         hold_joints(joints);
         prepare_contacts(contacts, time_step);
-        apply_initial_impulses(joints, contacts);
+        apply_known_impulses(joints, contacts);
         iterate(joints, contacts);
     } while (release_overloaded(joints, contacts));
 
@@ -31,43 +37,24 @@ void Solver::solve(btMultiBody &multibody, std::vector<JointConstraint> &joints,
     multibody.applyDeltaVeeMultiDof(change.data(), 1);
 }
 
-void Solver::invert_mass(const btMultiBody &multibody) {
-    inverse_mass_.setZero();
-    for (int dof = 0; dof < dofs_; dof++) {
-        const GeneralVector unit = GeneralVector::Unit(dof);
-        multibody.calcAccelerationDeltasMultiDof(unit.data(), inverse_mass_.col(dof).data(), scratch_numbers_,
-                                                 scratch_vectors_);
-    }
+// Lets a joint give way that inverse_ has taken for rigid: inversion by bordering, which adds one rank.
+void Solver::release(int joint) {
+    const GeneralVector column = mass_.col(6 + joint);
+    GeneralVector direction = -inverse_.lazyProduct(column);  // how all else moves with the joint
+    direction[6 + joint] = 1;
+    inverse_ += direction * (direction / direction.dot(column)).transpose();
 }
 
-// With E picking the held joints and W the inverse mass: S = E^T W E, and what is left of W once their drives react to
-// every impulse is W - W E S^-1 E^T W.
+// Velocities with the held joints at their targets: their drives change no momentum but their own.
 void Solver::hold_joints(const std::vector<JointConstraint> &joints) {
-    held_.clear();
+    velocity_.setZero();
     for (std::size_t j = 0; j < joints.size(); j++) {
         if (joints[j].held) {
-            held_.push_back(static_cast<int>(j));
+            velocity_[6 + static_cast<Eigen::Index>(j)] = joints[j].target;
         }
     }
-    const auto count = static_cast<Eigen::Index>(held_.size());
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_actuators, max_actuators> mass(count, count);
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_actuators, 1> missing(count);
-    held_response_.resize(Eigen::NoChange, count);
-    for (Eigen::Index k = 0; k < count; k++) {
-        const int joint = held_[static_cast<std::size_t>(k)];
-        held_response_.col(k) = inverse_mass_.col(6 + joint);
-        missing[k] = joints[static_cast<std::size_t>(joint)].target - free_[6 + joint];
-    }
-    for (Eigen::Index k = 0; k < count; k++) {
-        mass.row(k) = held_response_.row(6 + held_[static_cast<std::size_t>(k)]);
-    }
-    held_mass_.compute(mass);
-    held_inverse_ = inverse_mass_ - held_response_ * held_mass_.solve(held_response_.transpose());
-    velocity_ = free_ + held_response_ * held_mass_.solve(missing);
-    for (const int joint : held_) {  // exactly, not just to rounding
-        held_inverse_.row(6 + joint).setZero();
-        held_inverse_.col(6 + joint).setZero();
-    }
+    const GeneralVector missing = mass_.lazyProduct(free_ - velocity_);
+    velocity_ += inverse_.lazyProduct(missing);
 }
 
 void Solver::prepare_contacts(const std::vector<Contact> &contacts, double time_step) {
@@ -76,8 +63,8 @@ void Solver::prepare_contacts(const std::vector<Contact> &contacts, double time_
     for (std::size_t i = 0; i < contacts.size(); i++) {
         const Contact &contact = contacts[i];
         ContactRow &row = rows_[i];
-        row.response.noalias() = held_inverse_ * contact.jacobian;
-        row.effect.noalias() = contact.jacobian.transpose() * row.response;
+        row.response = inverse_.lazyProduct(contact.jacobian);
+        row.effect = contact.jacobian.transpose().lazyProduct(row.response);
         row.push = contact.depth > 0 ? share * contact.depth : contact.depth / time_step;
         const Eigen::Matrix2d tangential = row.effect.bottomRightCorner<2, 2>();
         row.sticking = tangential.inverse();
@@ -86,13 +73,13 @@ void Solver::prepare_contacts(const std::vector<Contact> &contacts, double time_
     }
 }
 
-void Solver::apply_initial_impulses(const std::vector<JointConstraint> &joints, const std::vector<Contact> &contacts) {
+void Solver::apply_known_impulses(const std::vector<JointConstraint> &joints, const std::vector<Contact> &contacts) {
     for (std::size_t i = 0; i < contacts.size(); i++) {
         velocity_ += rows_[i].response * contacts[i].impulse;
     }
     for (std::size_t j = 0; j < joints.size(); j++) {
         if (!joints[j].held) {
-            velocity_ += held_inverse_.col(6 + static_cast<Eigen::Index>(j)) * joints[j].impulse;
+            velocity_ += inverse_.col(6 + static_cast<Eigen::Index>(j)) * joints[j].impulse;
         }
     }
 }
@@ -116,7 +103,7 @@ void Solver::iterate(std::vector<JointConstraint> &joints, std::vector<Contact> 
 
 // Returns the change of the joint's rate.
 double Solver::relax(JointConstraint &joint, int dof) {
-    const double response = held_inverse_(dof, dof);
+    const double response = inverse_(dof, dof);
     const double others = velocity_[dof] - response * joint.impulse;  // rate without this impulse
     double impulse = std::clamp((joint.target - others) / response, -joint.limit, joint.limit);
     const double rate = others + response * impulse;
@@ -125,7 +112,7 @@ double Solver::relax(JointConstraint &joint, int dof) {
         impulse = (stopped - others) / response;
     }
     const double change = impulse - joint.impulse;
-    velocity_ += held_inverse_.col(dof) * change;
+    velocity_ += inverse_.col(dof) * change;
     joint.impulse = impulse;
     return std::abs(change) * response;
 }
@@ -170,23 +157,21 @@ bool Solver::release_overloaded(std::vector<JointConstraint> &joints, const std:
             impulse[6 + static_cast<Eigen::Index>(j)] += joints[j].impulse;
         }
     }
-    const GeneralVector undriven = free_ + inverse_mass_ * impulse;
-    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_actuators, 1> missing(static_cast<Eigen::Index>(held_.size()));
-    for (std::size_t k = 0; k < held_.size(); k++) {
-        const int joint = held_[k];
-        missing[static_cast<Eigen::Index>(k)] = joints[static_cast<std::size_t>(joint)].target - undriven[6 + joint];
-    }
-    held_mass_.solveInPlace(missing);
+    const GeneralVector drives = mass_.lazyProduct(velocity_ - free_) - impulse;
 
     bool released = false;
-    for (std::size_t k = 0; k < held_.size(); k++) {
-        JointConstraint &joint = joints[static_cast<std::size_t>(held_[k])];
-        joint.impulse = missing[static_cast<Eigen::Index>(k)];
+    for (std::size_t j = 0; j < joints.size(); j++) {
+        JointConstraint &joint = joints[j];
+        if (!joint.held) {
+            continue;
+        }
+        joint.impulse = drives[6 + static_cast<Eigen::Index>(j)];
         const double most = joint.target <= joint.lowest ? infinity : joint.limit;
         const double least = joint.target >= joint.highest ? -infinity : -joint.limit;
         if (joint.impulse > most || joint.impulse < least) {
             joint.impulse = std::clamp(joint.impulse, -joint.limit, joint.limit);
             joint.held = false;
+            release(static_cast<int>(j));
             released = true;
         }
     }

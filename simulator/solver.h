@@ -5,11 +5,11 @@
 // ground spring and Coulomb's law of friction, with friction opposite to the slip.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <vector>
 
 #include "contact.h"
 #include "drive.h"
+#include "mass_matrix.h"
 
 namespace limphome {
 
@@ -33,10 +33,10 @@ class Solver {
         double slip_step;                             // impulse per slip velocity in the projection [kg]
     };
 
-    void invert_mass(const btMultiBody &multibody);
     void hold_joints(const std::vector<JointConstraint> &joints);
+    void release(int joint);
     void prepare_contacts(const std::vector<Contact> &contacts, double time_step);
-    void apply_initial_impulses(const std::vector<JointConstraint> &joints, const std::vector<Contact> &contacts);
+    void apply_known_impulses(const std::vector<JointConstraint> &joints, const std::vector<Contact> &contacts);
     void iterate(std::vector<JointConstraint> &joints, std::vector<Contact> &contacts);
     double relax(JointConstraint &joint, int dof);
     double relax(Contact &contact, const ContactRow &row);
@@ -45,17 +45,11 @@ class Solver {
     int iterations_;
     GroundStiffness ground_;
     double compliance_ = 0;  // of the ground over one step [1/kg]
-    int dofs_ = 0;
+    GeneralMatrix mass_;
+    GeneralMatrix inverse_;   // velocities per impulse while the held joints keep their rates
     GeneralVector free_;      // velocities without drives, stops and contacts
     GeneralVector velocity_;  // velocities so far
-    GeneralMatrix inverse_mass_;
-    GeneralMatrix held_inverse_;  // the same with the held joints at their targets
-    std::vector<int> held_;       // joints
-    Eigen::Matrix<double, max_dofs, Eigen::Dynamic, 0, max_dofs, max_actuators> held_response_;
-    Eigen::LLT<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_actuators, max_actuators>> held_mass_;
     std::vector<ContactRow> rows_;
-    btAlignedObjectArray<btScalar> scratch_numbers_;
-    btAlignedObjectArray<btVector3> scratch_vectors_;
 };
 
 }  // namespace limphome

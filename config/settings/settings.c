@@ -73,15 +73,15 @@ static const struct key keys[] = {
     CHOICE_KEY(failure, mode, "locked free weak", SETTINGS_LOCKED, "how it has failed"),
     REAL_KEY(failure, weak_factor, 0, 1, 0.3, "torque limit left to a weak crawler, as a share of the rated one"),
 
-    REAL_KEY(simulator, time_step_s, 1e-4, 0.02, 1.0 / 400, "time step [s]"),
+    REAL_KEY(simulator, time_step_s, 1e-4, 0.02, 0.005, "time step [s]"),
     WHOLE_KEY(simulator, solver_iterations, 1, 1000, 20, "iterations of the contact solver per time step"),
     {"simulator", "pace", CHOICE, AT(simulator, pace), 0, 0, SETTINGS_LOCKSTEP, "lockstep real_time", false,
      "lockstep: wait for each command; real_time: do not wait"},
     REAL_KEY(simulator, friction_crawler, 0, 2, 0.7, "Coulomb friction of crawlers on the ground"),
     REAL_KEY(simulator, friction_arm, 0, 2, 0.7, "Coulomb friction of arm and body on the ground"),
 
-    REAL_KEY(drive, proportional, 0, 1000, 40, "PID velocity drives: proportional gain [1/s]"),
-    REAL_KEY(drive, integral, 0, 100000, 200, "PID velocity drives: integral gain [1/s^2]"),
+    REAL_KEY(drive, proportional, 0, 1000, 60, "PID velocity drives: proportional gain [1/s]"),
+    REAL_KEY(drive, integral, 0, 100000, 100, "PID velocity drives: integral gain [1/s^2]"),
     REAL_KEY(drive, derivative, 0, 1, 0, "PID velocity drives: derivative gain [-]"),
 
     {"link", "resend_s", REAL, AT(link, resend_s), 0.001, 1, 0.005, NULL, false,
