@@ -327,11 +327,11 @@ RobotModel Reader::read() {
     for (auto *e = extension->FirstChildElement("arm"); e != nullptr; e = e->NextSiblingElement("arm")) {
         add_arm_joint(*e);
     }
-    for (auto *e = extension->FirstChildElement("tip"); e != nullptr; e = e->NextSiblingElement("tip")) {
-        add_tip(*e);
-    }
     if (!free_joints_.empty()) {
         refuse("<joint name=\"" + free_joints_.begin()->first + "\">", "moves, but is no actuator of <limphome>");
+    }
+    for (auto *e = extension->FirstChildElement("tip"); e != nullptr; e = e->NextSiblingElement("tip")) {
+        add_tip(*e);
     }
     return model_;
 }

@@ -7,9 +7,10 @@
 namespace limphome {
 namespace {
 
-constexpr double standard_gravity = 9.81;   // [m/s^2]
-constexpr double static_deflection = 1e-3;  // of the ground under the robot's weight on its crawlers [m]
-constexpr double settling_time = 0.5;       // [s]
+constexpr double standard_gravity = 9.81;     // [m/s^2]
+constexpr double static_deflection = 1e-3;    // of the ground under the robot's weight on its crawlers [m]
+constexpr double start_heading = 0.5 * M_PI;  // [rad]
+constexpr double settling_time = 0.5;         // [s]
 constexpr int ground_group = 1, robot_group = 2;
 
 // Critically damped at the deflection above, so that the robot does not bounce.
@@ -97,7 +98,7 @@ void Scene::set_gravity(const Eigen::Vector3d &gravity) {
 // Lets the robot sink in to its equilibrium, then puts it at the origin, at rest.
 void Scene::settle() {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.linear() = Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    pose.linear() = Eigen::AngleAxisd(start_heading, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     pose.translation().z() = -static_deflection;
     robot.set_pose(pose);
     for (double time = 0; time < settling_time; time += time_step_) {
@@ -108,11 +109,13 @@ void Scene::settle() {
     }
     robot.multibody().clearVelocities();
     pose = robot.pose();
-    const Eigen::Vector3d moved(pose.translation().x(), pose.translation().y(), 0);
-    pose.translation() -= moved;
-    robot.set_pose(pose);
+    const double turned = std::atan2(pose(1, 0), pose(0, 0)) - start_heading;
+    const Eigen::Isometry3d back = Eigen::AngleAxisd(-turned, Eigen::Vector3d::UnitZ()) *
+                                   Eigen::Translation3d(-pose.translation().x(), -pose.translation().y(), 0);
+    robot.set_pose(back * pose);
     for (Contact &contact : pipeline_.contacts) {
-        contact.point -= moved;
+        contact.point = back * contact.point;
+        contact.frame = back.linear() * contact.frame;
     }
     for (std::size_t a = 0; a < drives.size(); a++) {
         robot.multibody().setJointPos(static_cast<int>(a), robot.model().actuators[a].home);

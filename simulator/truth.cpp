@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t max_contacts = 24;   // as in ground_truth_t
 constexpr double loaded = 1e-3;            // share of the robot's weight that counts as load on a point of support
+constexpr double on_edge = 1e-6;           // twice the area of a triangle that counts as flat [m^2]
 constexpr double standard_gravity = 9.81;  // [m/s^2]
 
 // Twice the area of the triangle a, b, c seen from above; above 0 if it turns left.
@@ -46,7 +47,7 @@ std::vector<Contact> touching(const World &world) {
 
 }  // namespace
 
-// Monotone chain (Andrew 1979).
+// Monotone chain (Andrew 1979). Points less than some micrometres off an edge lie on it.
 std::vector<Eigen::Vector3d> support_polygon(std::vector<Eigen::Vector3d> points) {
     std::sort(points.begin(), points.end(), [](const Eigen::Vector3d &a, const Eigen::Vector3d &b) {
         return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
@@ -56,7 +57,7 @@ std::vector<Eigen::Vector3d> support_polygon(std::vector<Eigen::Vector3d> points
     }
     std::vector<Eigen::Vector3d> hull;
     const auto extend = [&hull](const Eigen::Vector3d &point, std::size_t start) {
-        while (hull.size() >= start + 2 && turn(hull[hull.size() - 2], hull.back(), point) <= 0) {
+        while (hull.size() >= start + 2 && turn(hull[hull.size() - 2], hull.back(), point) <= on_edge) {
             hull.pop_back();
         }
         hull.push_back(point);
