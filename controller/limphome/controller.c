@@ -82,7 +82,6 @@ lh_error lh_controller_init(lh_controller *controller, const lh_config *config, 
     controller->robot = *robot;
     controller->controlled = *controlled;
     controller->episode.number = 1;
-    controller->awaiting_reset = true;
     return lh_learner_init(&controller->learner, &complete.learner, num_states, controlled->count, complete.seed);
 }
 
@@ -107,7 +106,6 @@ lh_error lh_controller_restore(lh_controller *controller, const lh_network *netw
 
 void lh_controller_begin(lh_controller *controller) {
     controller->acting = false;
-    controller->awaiting_reset = true;
 }
 
 static situation assess(const lh_controller *controller, const lh_state *state) {
@@ -196,7 +194,6 @@ static void finish_step(lh_controller *controller, const situation *now, lh_deci
         decision->ended = true;
         decision->summary = summarise(controller, &now->pose, outcome);
     }
-    controller->acting = false;
 }
 
 static void describe(const lh_controller *controller, const situation *now, lh_decision *decision) {
@@ -244,11 +241,10 @@ lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh
     controller->clamped += lh_observation(&controller->robot, &controller->controlled, state, decision->inputs);
 
     lh_episode *episode = &controller->episode;
-    if (controller->awaiting_reset) {
-        lh_episode_begin(episode, episode->number, &now.pose);
-        controller->awaiting_reset = false;
-    } else if (controller->acting) {
+    if (controller->acting) {
         finish_step(controller, &now, decision);
+    } else {
+        lh_episode_begin(episode, episode->number, &now.pose);
     }
     if (decision->ended) {
         bool tumbled = decision->summary.outcome == LH_OUTCOME_TUMBLE;
@@ -257,7 +253,7 @@ lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh
     if (decision->reset) {
         describe(controller, &now, decision);
         ++episode->number;
-        controller->awaiting_reset = true;
+        controller->acting = false;
         return LH_OK;
     }
     if (decision->ended) {

@@ -88,8 +88,8 @@ typedef struct lh_controller {
     lh_learner learner;
     lh_episode episode;
     /* the step under way */
-    bool acting;                       /* an action was chosen and its result is awaited */
-    bool awaiting_reset;               /* episode.number begins at the next state, in the initial pose */
+    bool acting;                       /* an action was chosen and its result is awaited; false: episode.number begins
+                                          at the next state */
     int32_t action;                    /* chosen joint action */
     lh_pose2 pose;                     /* where it was chosen */
     float inputs[LH_MAX_STATE_INPUTS]; /* state inputs there */

@@ -113,6 +113,16 @@ START_TEST(selection_agrees_with_probability) {
 }
 END_TEST
 
+/* Not even by the random number 0, which xoshiro128** gives for s[1] = 0. */
+START_TEST(impossible_actions_are_not_selected) {
+    const float q[] = {-1e30f, 0.0f, -1e30f};
+    lh_random random = {{1, 0, 0, 0}};
+    lh_random same = random;
+    ck_assert_float_eq(lh_random_uniform(&same), 0.0f);
+    ck_assert_int_eq(lh_boltzmann_select(q, 3, 1.0f, &random, NULL), 1);
+}
+END_TEST
+
 START_TEST(selection_uses_one_random_number) {
     lh_random a;
     lh_random b;
@@ -186,6 +196,7 @@ Suite *suite(void) {
     tcase_add_test(t, probabilities_sum_to_one);
     tcase_add_test(t, huge_values_do_not_overflow);
     tcase_add_test(t, selection_agrees_with_probability);
+    tcase_add_test(t, impossible_actions_are_not_selected);
     tcase_add_test(t, selection_uses_one_random_number);
     tcase_add_test(t, frequencies_agree_with_probability);
     tcase_add_test(t, draws_at_the_edges_of_the_interval);

@@ -58,6 +58,19 @@ START_TEST(edge_inclined_and_vertical) {
 }
 END_TEST
 
+START_TEST(balanced_over_an_edge_is_not_below_zero) {
+    lh_vec3 b = {0.3f, 0.9f, 0.0f};
+    for (b.z = -1.0f; b.z < 1.0f; b.z += 0.013f) {
+        for (float height = 0.1f; height < 1.0f; height += 0.037f) {
+            const lh_vec3 g = {0.5f * b.x, 0.5f * b.y, 0.5f * b.z + height};
+            const float rise = lh_stability_edge((lh_vec3){0, 0, 0}, b, g);
+            ck_assert_float_ge(rise, 0.0f);
+            expect_near(rise, 0.0, 3e-7);
+        }
+    }
+}
+END_TEST
+
 START_TEST(margin_against_reference) {
     for (int32_t k = 0; k < COUNT(hull_points); ++k) {
         lh_vec3 points[6];
@@ -92,8 +105,19 @@ START_TEST(order_duplicates_and_inner_points_do_not_matter) {
     const lh_vec3 more[] = {{0, 0, 0},       rectangle[2], {0, 0.5f, 0}, rectangle[0], {0.5f, -0.25f, 0}, rectangle[1],
                             {-1, 0.125f, 0}, rectangle[3], rectangle[0], {1, 0, 0},    rectangle[2],      {0, 0, 0}};
     ck_assert_float_eq(lh_stability_margin(more, COUNT(more), mass), expected);
-    const lh_vec3 reversed[] = {rectangle[3], rectangle[2], rectangle[1], rectangle[0]};
-    ck_assert_float_eq(lh_stability_margin(reversed, 4, mass), expected);
+    /* every order of the corners and a point on a side between two of them */
+    const lh_vec3 corners[] = {rectangle[0], rectangle[1], rectangle[2], rectangle[3], {-1, 0.25f, 0}};
+    for (int32_t order = 0; order < 5 * 5 * 5 * 5 * 5; ++order) {
+        lh_vec3 points[5];
+        uint32_t used = 0;
+        for (int32_t i = 0, digits = order; i < 5; ++i, digits /= 5) {
+            points[i] = corners[digits % 5];
+            used |= 1u << (digits % 5);
+        }
+        if (used == 31u) {
+            ck_assert_float_eq(lh_stability_margin(points, 5, mass), expected);
+        }
+    }
 }
 END_TEST
 
@@ -157,6 +181,7 @@ Suite *suite(void) {
     tcase_add_test(t, edge_against_brute_force_rotation);
     tcase_add_test(t, edge_by_hand);
     tcase_add_test(t, edge_inclined_and_vertical);
+    tcase_add_test(t, balanced_over_an_edge_is_not_below_zero);
     tcase_add_test(t, pitch_about_a_level_edge);
     suite_add_tcase(s, t);
     t = tcase_create("margin (11)");
