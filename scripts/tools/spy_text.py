@@ -78,7 +78,7 @@ def shown(value):
 
 
 def main():
-    signal.signal(signal.SIGINT, lambda *_: sys.exit(0))
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C is how one leaves
     spy = TextSpy(sys.argv[1])
     while True:
         lines = spy.screen(spy.watch(EVERY_S))

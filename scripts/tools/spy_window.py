@@ -26,8 +26,10 @@ def window_command(url):
     if shutil.which("javac") is None:
         raise InputError("a Java development kit is needed: apt-get install default-jdk; or use scripts/spy --text")
     make_types_jar()
-    class_path = os.pathsep.join(map(str, [TYPES, *sorted(JARS.glob("*.jar"))]))
-    return ["java", "-Djava.net.preferIPv4Stack=true", "-cp", class_path, "lcm.spy.Spy", f"--lcm-url={url}"]
+    # lcm-spy looks through the class path for message types, so that holds ours alone
+    libraries = os.pathsep.join(map(str, sorted(JARS.glob("*.jar"))))
+    return ["java", "-Djava.net.preferIPv4Stack=true", f"-Xbootclasspath/a:{libraries}", "-cp", str(TYPES),
+            "lcm.spy.Spy", f"--lcm-url={url}"]
 
 
 def make_types_jar():
