@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -32,6 +33,15 @@ def start_script(name, *arguments, **options):
 def train(out, *arguments, check=True):
     """Trains by config/smoke.ini into `out`; returns the result of the script."""
     return run_script("train", "--config", SMOKE, "--out", out, "--quiet", *arguments, check=check)
+
+
+def wait_until(process, condition):
+    """Waits for `condition()` while `process` runs."""
+    deadline = time.monotonic() + TIME_LIMIT_S
+    while not condition():
+        assert process.poll() is None, process.communicate()[1]
+        assert time.monotonic() < deadline, "waited in vain"
+        time.sleep(0.02)
 
 
 def processes_that_mention(text):

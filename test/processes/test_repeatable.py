@@ -1,24 +1,19 @@
 """Same seed, same bytes: over a second run, over an interruption; and another seed, other bytes."""
 
 import signal
-import time
 
-from conftest import SMOKE, TIME_LIMIT_S, start_script, train
+from conftest import SMOKE, TIME_LIMIT_S, start_script, train, wait_until
 
+from tools.messages import checkpoint_t, policy_t
 from tools.runfolder import RunFolder
+
+
+def policy_after(folder, episode):
+    return checkpoint_t.decode((folder.checkpoints / f"episode_{episode:06}.lcm").read_bytes()).policy
 
 
 def outcome(folder):
     return folder.episodes.read_bytes(), folder.policy.read_bytes()
-
-
-def wait_until(process, condition):
-    """Waits for `condition()` while `process` runs."""
-    deadline = time.monotonic() + TIME_LIMIT_S
-    while not condition():
-        assert process.poll() is None, process.communicate()[1]
-        assert time.monotonic() < deadline, "waited in vain"
-        time.sleep(0.02)
 
 
 def test_same_seed_same_bytes(smoke_run, tmp_path):
@@ -30,7 +25,18 @@ def test_other_seed_other_bytes(smoke_run, tmp_path):
     train(tmp_path / "other", "--seed", 2, "--episodes", 10)
     other = RunFolder(tmp_path / "other")
     assert other.read_episodes() != smoke_run.read_episodes()[:10]
-    assert other.policy.read_bytes() != (smoke_run.checkpoints / "episode_000010.lcm").read_bytes()
+    assert policy_t.decode(other.policy.read_bytes()).weight != policy_after(smoke_run, 10).weight
+
+
+def test_runs_side_by_side_do_not_hear_each_other(smoke_run, tmp_path):
+    folders = [RunFolder(tmp_path / name) for name in ("one", "two")]
+    started = [start_script("train", "--config", SMOKE, "--episodes", 10, "--out", folder.path, "--quiet")
+               for folder in folders]
+    for process in started:
+        assert process.wait(TIME_LIMIT_S) == 0, process.communicate()[1]
+    for folder in folders:
+        assert folder.read_episodes() == smoke_run.read_episodes()[:10]
+        assert folder.policy.read_bytes() == policy_after(smoke_run, 10).encode()
 
 
 def test_resumed_run_ends_as_an_unbroken_one(smoke_run, tmp_path):

@@ -1,0 +1,107 @@
+"""Evaluating, launching and spying on real processes."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+
+import pytest
+from conftest import ROOT, TIME_LIMIT_S, run_script, start_script, wait_until
+
+from tools import registry
+from tools.runfolder import RunFolder
+
+
+def test_evaluation_is_greedy_and_repeatable(smoke_run):
+    policy = smoke_run.policy.read_bytes()
+    first = run_script("evaluate", smoke_run.path, "--episodes", 4, "--json").stdout
+    rows = RunFolder(smoke_run.path / "evaluation").read_episodes()
+    assert run_script("evaluate", smoke_run.path, "--episodes", 4, "--json").stdout == first
+    summary = json.loads(first)
+    assert summary["episodes"] == len(rows) == 4
+    assert summary["goal_share"] == sum(row.outcome == "goal" for row in rows) / 4
+    assert smoke_run.policy.read_bytes() == policy, "it was to drive without learning"
+
+
+def test_evaluation_as_a_table(smoke_run):
+    assert "reached the goal" in run_script("evaluate", smoke_run.path, "--episodes", 1).stdout
+
+
+def test_evaluation_needs_a_policy(tmp_path):
+    result = run_script("evaluate", tmp_path, check=False)
+    assert result.returncode == 2 and "not a run folder" in result.stderr
+
+
+@pytest.fixture
+def launched(smoke_run, tmp_path, monkeypatch):
+    """scripts/launch, in real time, with its registry to itself."""
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    process = start_script("launch", "--policy", smoke_run.path, "--set", "episode.step_limit=2", "--set",
+                           "episode.decision_period_s=0.1")
+    wait_until(process, registry.running)
+    pair = registry.running()[0]
+    yield process, pair
+    if process.poll() is None:
+        process.send_signal(signal.SIGINT)
+    process.communicate(timeout=TIME_LIMIT_S)
+    shutil.rmtree(pair["run"])
+
+
+def test_launch_tells_of_episodes_until_ctrl_c(launched):
+    process, pair = launched
+    wait_until(process, lambda: len(RunFolder(pair["run"]).read_episodes()) >= 2)
+    process.send_signal(signal.SIGINT)
+    output, _ = process.communicate(timeout=TIME_LIMIT_S)
+    assert process.returncode == 130
+    assert "scripts/spy" in output and "episode 1: timeout after 0.2 s" in output
+    assert registry.running() == []
+
+
+def test_spy_as_text_shows_decoded_values(launched):
+    spy = start_script("spy", "--text")
+    lines = iter(spy.stdout.readline, "")
+    seen = ""
+    for line in lines:  # the reader's time limit is that of the whole test run
+        seen += line
+        if "stability_margin" in seen and "LIMPHOME_STATE\n" in seen and "orientation" in seen:
+            break
+    spy.send_signal(signal.SIGINT)
+    spy.communicate(timeout=TIME_LIMIT_S)
+    assert "LIMPHOME_DECISION" in seen and "num_actuators         5" in seen
+
+
+def test_spy_without_a_pair(tmp_path):
+    environment = {**os.environ, "XDG_RUNTIME_DIR": str(tmp_path)}
+    result = run_script("spy", "--text", check=False, env=environment)
+    assert result.returncode == 2 and "nothing is running" in result.stderr
+
+
+NEEDED = ("javac", "Xvfb", "xdotool")
+
+
+@pytest.mark.skipif(not all(map(shutil.which, NEEDED)), reason=f"needs {', '.join(NEEDED)}")
+def test_spy_window_decodes_our_types(launched):
+    server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1000x700x24", "-nolisten", "tcp"],
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    environment = {**os.environ, "DISPLAY": f":{server.stdout.readline().strip()}"}
+
+    def xdotool(*words):
+        return subprocess.run(["xdotool", *words], env=environment, capture_output=True, text=True).stdout.split()
+
+    def open_first_channel():
+        """A double click on the first row of the table opens a window that decodes the channel."""
+        xdotool("mousemove", "60", "28", "click", "--repeat", "2", "--delay", "60", "1")
+        return xdotool("search", "--name", "^LIMPHOME_")
+
+    spy = start_script("spy", env=environment)
+    try:
+        wait_until(spy, lambda: xdotool("search", "--name", "^LCM Spy$"))
+        wait_until(spy, open_first_channel)
+    finally:
+        spy.terminate()
+        output, errors = spy.communicate(timeout=TIME_LIMIT_S)
+        server.terminate()
+        server.wait()
+    types = len(list((ROOT / "lcmtypes").glob("*.lcm")))
+    assert f"Found {types} LCM types" in output + errors
