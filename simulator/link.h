@@ -43,6 +43,8 @@ class Link {
     // Whether a reset of this session was asked for since the session began.
     bool reset_requested() const { return reset_requested_; }
 
+    // Of the newest state sent.
+    int64_t session() const { return state_.session; }
     int64_t seq() const { return state_.seq; }
     const status_t &counts() const { return counts_; }
     double wait_time() const { return wait_time_; }

@@ -105,7 +105,7 @@ bool Plant::advance_real_time() {
             return false;
         }
     }
-    clock_ += period;
+    clock_ = std::max(clock_ + period, monotonic_now() - period);  // after a long stall, do not hurry to catch up
     return true;
 }
 
@@ -115,6 +115,7 @@ void Plant::report(int8_t condition) {
     status.utime = std::llround(now * 1e6);
     status.process = status_t::PLANT;
     status.condition = condition;
+    status.session = link_.session();
     status.seq = link_.seq();
     status.wall_time = now - started_;
     status.wait_time = link_.wait_time();
