@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 CORNERS = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
-END_POINTS = 12  # points on each rounded end of a crawler
+END_POINTS = 13  # points on each rounded end of a crawler; odd, so that its very end is one
 
 
 @dataclass
