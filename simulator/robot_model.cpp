@@ -64,7 +64,7 @@ class Reader {
     void merge(const urdf::LinkConstSharedPtr &link, int body, const Eigen::Isometry3d &frame);
     void merge_inertia(const urdf::Link &link, Body &body, const Eigen::Isometry3d &frame) const;
     void merge_collisions(const urdf::Link &link, Body &body, const Eigen::Isometry3d &frame) const;
-    const FreeJoint take_joint(const TiXmlElement &element, Actuator &actuator);
+    FreeJoint take_joint(const TiXmlElement &element, Actuator &actuator);
     void add_body(const FreeJoint &moved);
     void add_crawler(const TiXmlElement &element);
     void add_arm_joint(const TiXmlElement &element);
@@ -205,7 +205,7 @@ void Reader::merge(const urdf::LinkConstSharedPtr &link, int body, const Eigen::
     }
 }
 
-const FreeJoint Reader::take_joint(const TiXmlElement &element, Actuator &actuator) {
+FreeJoint Reader::take_joint(const TiXmlElement &element, Actuator &actuator) {
     const std::string name = text(element, "joint");
     const auto found = free_joints_.find(name);
     if (found == free_joints_.end()) {

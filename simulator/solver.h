@@ -23,8 +23,7 @@ class Solver {
                double time_step);
 
    private:
-    // What relaxing one contact needs. Normal law: velocity + compliance * impulse = push where impulse > 0, else >=
-    // push.
+    // What relaxing one contact needs. Normal law: velocity + compliance * impulse = push while the impulse is above 0.
     struct ContactRow {
         Eigen::Matrix<double, max_dofs, 3> response;  // velocities per unit impulse along each axis
         Eigen::Matrix3d effect;                       // relative velocity per unit impulse
