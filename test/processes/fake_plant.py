@@ -3,7 +3,8 @@
 Starts COMMAND, a limphome-controller, and answers it in lockstep until it ends. FAULTS is JSON with the probabilities
 of what befalls a message: drop, duplicate, reorder (an earlier state comes again), garbage (a broken copy comes too);
 and `seed`. Prints JSON: the controller's exit code, how many states it answered, how often a command for one
-(session, seq) differed from an earlier one, and how often each fault was done.
+(session, seq) differed from an earlier one, how often each fault was done, and how much of the garbage the controller
+must have met: what went out before a state that it answered.
 
 The robot is a point that the right crawler pushes and the swing joint steers.
 """
@@ -38,6 +39,8 @@ class FakePlant:
         self.answers = {}  # (session, seq) -> velocities of the first command
         self.differing = 0
         self.earlier = b""
+        self.heard = False  # the controller: garbage that nobody hears yet would not count
+        self.garbage_before_state = self.garbage_met = 0
         self.begin()
 
     def begin(self):
@@ -48,6 +51,7 @@ class FakePlant:
         self.heading = math.pi / 2
         self.angles = list(HOME)
         self.command = None
+        self.published = False
 
     def state(self):
         state = robot_state_t()
@@ -70,6 +74,7 @@ class FakePlant:
         self.utime += round(PERIOD_S * 1e6)
         self.seq += 1
         self.command = None
+        self.published = False
 
     def befalls(self, fault):
         happens = self.random.random() < self.faults.get(fault, 0.0)
@@ -79,11 +84,14 @@ class FakePlant:
     def publish(self):
         state = self.state()
         encoded = state.encode()
-        if self.befalls("garbage"):
+        if self.heard and self.befalls("garbage"):
             self.lcm.publish("LIMPHOME_STATE", encoded[:-3])
             self.lcm.publish("LIMPHOME_STATE", encoded + b"\0")
             state.position = [math.nan, 0.0, 0.0]
             self.lcm.publish("LIMPHOME_STATE", state.encode())
+        if not self.published:
+            self.garbage_before_state = self.done["garbage"]
+            self.published = True
         if self.befalls("drop"):
             return
         self.lcm.publish("LIMPHOME_STATE", encoded)
@@ -97,12 +105,15 @@ class FakePlant:
     def _on_command(self, _channel, data):
         command = velocity_command_t.decode(data)
         key = (command.session, command.seq)
+        if key == (self.session, self.seq):
+            self.garbage_met = self.garbage_before_state
         first = self.answers.setdefault(key, command.velocity)
         self.differing += first != command.velocity
         if key == (self.session, self.seq) and not self.befalls("drop"):
             self.command = command
 
     def _on_reset(self, _channel, data):
+        self.heard = True
         if reset_request_t.decode(data).session == self.session and not self.befalls("drop"):
             self.begin()
 
@@ -124,7 +135,7 @@ def main():
     finally:
         controller.kill()
     print(json.dumps({"exit_code": controller.wait(), "answered": len(plant.answers), "differing": plant.differing,
-                      "done": plant.done}))
+                      "done": plant.done, "garbage_met": plant.garbage_met}))
 
 
 if __name__ == "__main__":

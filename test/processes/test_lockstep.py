@@ -58,5 +58,8 @@ def test_faults_change_nothing_that_is_learned(tmp_path, clean, faults):
 def test_garbage_is_counted(tmp_path):
     report, folder = learn(tmp_path / "run", garbage=0.3)
     last = [status for _, status in recorded(folder.messages, STATUS) if status.process == status_t.CONTROLLER][-1]
-    assert last.rejected_non_finite == report["done"]["garbage"]
-    assert last.rejected_malformed == 2 * report["done"]["garbage"]
+    # a piece of garbage is two broken messages and one that is not finite; the last may come when the controller is done
+    least, most = report["garbage_met"], report["done"]["garbage"]
+    assert least > 10
+    assert least <= last.rejected_non_finite <= most
+    assert 2 * least <= last.rejected_malformed <= 2 * most
