@@ -18,7 +18,8 @@ def parse_arguments():
     parser.add_argument("--config", help="experiment (INI); default config/paper.ini, or the run's")
     parser.add_argument("--robot", help="robot (URDF); default config/crawler.urdf, or the run's")
     parser.add_argument("--policy", metavar="RUN", help="drive with the policy of this run instead of learning")
-    parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="one setting; repeatable")
+    parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE",
+                        help="one setting; repeatable")
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for scripts/train")
     return parser.parse_args()
 

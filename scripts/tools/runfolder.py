@@ -61,7 +61,8 @@ class RunFolder:
 
     def newest_checkpoint(self):
         """Episode after which the newest checkpoint was taken; 0 where there is none."""
-        return max((int(file.stem.removeprefix("episode_")) for file in self.checkpoints.glob("episode_*.lcm")), default=0)
+        files = self.checkpoints.glob("episode_*.lcm")
+        return max((int(file.stem.removeprefix("episode_")) for file in files), default=0)
 
 
 class EpisodeTail:

@@ -20,7 +20,8 @@ def parse_arguments():
     parser.add_argument("--robot", help="robot (URDF); default config/crawler.urdf")
     parser.add_argument("--episodes", type=int, help="how many; short for --set learning.episodes=N")
     parser.add_argument("--seed", type=int, help="of every random number; short for --set learning.seed=N")
-    parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="one setting; repeatable")
+    parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE",
+                        help="one setting; repeatable")
     parser.add_argument("--out", metavar="DIR", help="run folder to make; default runs/<config>-seed<N>-<time>")
     parser.add_argument("--resume", metavar="DIR", help="run folder to go on with, from its newest checkpoint")
     parser.add_argument("--network", choices=("private", "host"), default="private",
@@ -74,6 +75,9 @@ def main():
         url = network.enter(args.network)
         raise_on_signals()
         folder = resumed_folder(args) if args.resume else new_folder(args)
+        part = Part(folder)
+    except Interrupted as interrupted:
+        return interrupted.exit_code
     except runfolder.InputError as error:
         print(error, file=sys.stderr)
         return 2
@@ -81,7 +85,6 @@ def main():
         print(f"network: {error}", file=sys.stderr)
         return 1
     print(f"training in {paths.shown(folder.path)}", file=sys.stderr)
-    part = Part(folder)
     total = int(folder.settings()["learning"]["episodes"])
     progress = Progress(total, done=folder.newest_checkpoint() if args.resume else 0, quiet=args.quiet)
     result, code = "finished", 0
@@ -89,8 +92,7 @@ def main():
         train(folder, url, progress, bool(args.resume))
     except Interrupted as interrupted:
         result, code = "interrupted", interrupted.exit_code
-        print(f"interrupted; scripts/train --resume {paths.shown(folder.path)} goes on from episode "
-              f"{folder.newest_checkpoint()}", file=sys.stderr)
+        print(how_to_go_on(folder), file=sys.stderr)
     except PairFailed as failure:
         result, code = "failed", failure.exit_code
         print(failure, file=sys.stderr)
@@ -99,6 +101,13 @@ def main():
     if code == 0:
         print(f"done in {clock(part.wall_time_s)}: {paths.shown(folder.path)}", file=sys.stderr)
     return code
+
+
+def how_to_go_on(folder):
+    checkpoint = folder.newest_checkpoint()
+    if checkpoint == 0:
+        return "interrupted before the first checkpoint: it cannot be resumed"
+    return f"interrupted; scripts/train --resume {paths.shown(folder.path)} goes on from episode {checkpoint}"
 
 
 def draw(folder):

@@ -21,7 +21,8 @@ def make_run(path, seed=1, **changes):
         (path / "figures" / f"{name}.png").write_bytes(b"image of seed %d" % seed)
     for name in ("config.ini", "robot.urdf"):
         (path / name).write_text("")
-    rows = [f"{n},{'tumble' if n <= 4 else 'goal'},{200 - n},{100 - n},{n - 20},0,0,0,0,{-1 / n},0,1" for n in range(1, 41)]
+    rows = [f"{n},{'tumble' if n <= 4 else 'goal'},{200 - n},{100 - n},{n - 20},0,0,0,0,{-1 / n},0,1"
+            for n in range(1, 41)]
     header = ",".join(Episode.__dataclass_fields__)
     (path / "episodes.csv").write_text("\n".join([header, *rows]) + "\n")
     (path / "manifest.json").write_text(json.dumps({**MANIFEST, "seed": seed, **changes}))

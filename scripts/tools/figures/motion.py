@@ -91,7 +91,8 @@ def _surroundings(side, above, episode):
 def _legend(figure, episode, colours):
     labels = {style.RED: "failed crawler", CRAWLER: "crawler", COLOURS["base"]: "chassis",
               COLOURS["upper_body"]: "upper body", ARM: "boom and arm"}
-    handles = [Polygon([(0, 0)], facecolor=colour, label=label) for colour, label in labels.items() if colour in colours]
+    handles = [Polygon([(0, 0)], facecolor=colour, label=label) for colour, label in labels.items()
+               if colour in colours]
     handles.append(plt.Line2D([], [], color=style.GREEN, linestyle="--", label="goal line"))
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     figure.suptitle(f"Motion of the robot in episode {episode.episode}")
