@@ -51,11 +51,14 @@ def last_statuses(recording):
 
 def measures(plant, controller):
     """What the two processes say of their own work."""
-    busy = sum((each.wall_time - each.wait_time) / each.wall_time for each in (plant, controller))
+    simulator_share, controller_share = ((each.wall_time - each.wait_time) / each.wall_time
+                                         for each in (plant, controller))
     return {
         "decisions": controller.decisions,
+        "simulator_share": simulator_share,
+        "controller_share": controller_share,
         # in lockstep one of the two works while the other waits; where both wait, a message is under way
-        "link_share": 1.0 - busy,
+        "link_share": 1.0 - simulator_share - controller_share,
         "counters": {name: {counter: getattr(status, counter) for counter in COUNTERS}
                      for name, status in (("simulator", plant), ("controller", controller))},
     }
@@ -74,10 +77,11 @@ def totals(parts):
         "real_time_factor": round(simulated / wall, 2),
         "decisions": decisions,
         "decisions_per_s": round(decisions / wall, 1),
-        "link_share": round(sum(part["link_share"] * part["wall_time_s"] for part in measured) / wall, 4),
+        **{share: round(sum(part[share] * part["wall_time_s"] for part in measured) / wall, 4) for share in SHARES},
     }
 
 
+SHARES = ("simulator_share", "controller_share", "link_share")  # of wall time
 COUNTERS = ("received", "rejected_malformed", "rejected_non_finite", "rejected_session", "rejected_sender",
             "duplicates", "resent", "late", "clamped", "saturated")
 

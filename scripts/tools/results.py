@@ -7,6 +7,7 @@ import sys
 from itertools import groupby
 
 from tools import paths, runfolder
+from tools.manifest import SHARES
 from tools.progress import clock
 from tools.summary import summarise
 
@@ -20,7 +21,7 @@ FIGURES = {
 }
 LEARNING_COLUMNS = ("seed", "episodes", "reached the goal [%]", "duration [s]", "lateral error [m]", "total reward",
                     "tumbles")
-COST_COLUMNS = ("seed", "wall time", "times real time", "decisions", "decisions/s", "share waiting on the link",
+COST_COLUMNS = ("seed", "wall time", "times real time", "decisions", "decisions/s", "wall time in simulator + controller + link",
                 "revision")
 
 
@@ -69,11 +70,16 @@ def cost_row(run):
     manifest = run.manifest
     commit, dirty = manifest["revision"]["commit"], manifest["revision"]["dirty"]
     return (run.seed, clock(manifest["wall_time_s"]), f"{manifest['real_time_factor']:.0f}", manifest["decisions"],
-            f"{manifest['decisions_per_s']:.0f}", f"{manifest['link_share']:.0%}",
+            f"{manifest['decisions_per_s']:.0f}", " + ".join(f"{manifest[share]:.0%}" for share in SHARES),
             f"`{(commit or 'unknown')[:10]}`" + (" with changes" if dirty else ""))
 
 
-def copy_figures(run):
+def best(runs):
+    """The run that ended with the largest median reward: the one whose figures are shown."""
+    return max(runs, key=lambda run: summarise(run.episodes[-stretch(run.episodes):])["median_reward"])
+
+
+def copy_figures(run, note):
     """Markdown that shows the figures of one run, copied to docs/images/."""
     images = DOCS / "images"
     images.mkdir(parents=True, exist_ok=True)
@@ -81,8 +87,16 @@ def copy_figures(run):
     for figure, caption in FIGURES.items():
         name = f"{run.name}-seed{run.seed}-{figure}.png"
         shutil.copyfile(run.folder.figures / f"{figure}.png", images / name)
-        shown.append(f"![{caption}](images/{name})\n\n*{caption}; {run.name}, seed {run.seed}.*")
+        shown.append(f"![{caption}](images/{name})\n\n*{caption}; {run.name}, seed {run.seed}{note}.*")
     return "\n\n".join(shown)
+
+
+def draw_seeds(name, runs):
+    """Markdown that shows how the reward went on every seed."""
+    from tools.figures import reward, style  # matplotlib takes most of a second to load
+    image = f"{name}-seeds.png"
+    style.save(reward.draw_seeds({run.seed: run.episodes for run in runs}), DOCS / "images" / image)
+    return f"![Total reward on every seed](images/{image})\n\n*Running median of the total reward on every seed; {name}.*"
 
 
 def section(name, runs):
@@ -96,7 +110,8 @@ def section(name, runs):
         markdown_table(LEARNING_COLUMNS, map(learning_row, runs)),
         f"What it took, on {'; '.join(machines)}:",
         markdown_table(COST_COLUMNS, map(cost_row, runs)),
-        copy_figures(runs[0]),
+        copy_figures(best(runs), ", which ended best" if len(runs) > 1 else ""),
+        draw_seeds(name, runs),
     ])
 
 

@@ -108,7 +108,9 @@ def test_manifest_tells_what_it_took(smoke_run):
     assert manifest["outcomes"] == dict(Counter(row.outcome for row in rows))
     assert manifest["decisions"] >= sum(row.steps for row in rows)
     assert manifest["simulated_time_s"] > 0 and manifest["wall_time_s"] > 0
-    assert 0 <= manifest["link_share"] <= 1
+    shares = [manifest[f"{part}_share"] for part in ("simulator", "controller", "link")]
+    assert all(0 <= share <= 1 for share in shares)
+    assert sum(shares) == pytest.approx(1, abs=1e-3)
     assert manifest["versions"]["lcm"] and manifest["versions"]["bullet"] and manifest["versions"]["compiler"]
 
 

@@ -9,7 +9,8 @@ from tools.runfolder import Episode, InputError
 
 MANIFEST = {
     "config": "paper", "seed": 1, "result": "finished", "wall_time_s": 3725.0, "real_time_factor": 41.4,
-    "decisions": 1234, "decisions_per_s": 20.6, "link_share": 0.123, "revision": {"commit": "a" * 40, "dirty": True},
+    "decisions": 1234, "decisions_per_s": 20.6, "simulator_share": 0.77, "controller_share": 0.11, "link_share": 0.12,
+    "revision": {"commit": "a" * 40, "dirty": True},
     "machine": {"cpu": "Some CPU", "cores": 4, "os": "Debian"},
 }
 
@@ -39,7 +40,7 @@ def test_table_compares_first_and_last_stretch(tmp_path):
     text = results.document([results.Run(make_run(tmp_path / "run"))])
     # medians over episodes 1..4 and 37..40
     assert "| 1 | 40 | 0 → 100 | 97.5 → 61.5 | 0.42 → 0.03 | -17.50 → 18.50 | 4 → 0 (4 in all) |" in text
-    assert "| 1 | 1:02:05 | 41 | 1234 | 21 | 12% | `aaaaaaaaaa` with changes |" in text
+    assert "| 1 | 1:02:05 | 41 | 1234 | 21 | 77% + 11% + 12% | `aaaaaaaaaa` with changes |" in text
     assert "First → last 4 episodes" in text
 
 
@@ -55,6 +56,17 @@ def test_figures_are_copied_beside_the_page(tmp_path, docs):
     text = results.document([results.Run(make_run(tmp_path / "run", 7))])
     assert "](images/paper-seed7-fig8_reward.png)" in text
     assert (docs / "images" / "paper-seed7-fig8_reward.png").read_bytes() == b"image of seed 7"
+
+
+def test_figures_are_those_of_the_seed_that_ended_best(tmp_path, docs):
+    poor, good = make_run(tmp_path / "poor", 1), make_run(tmp_path / "good", 2)
+    rows = (poor / "episodes.csv").read_text().splitlines()
+    (poor / "episodes.csv").write_text("\n".join([*rows[:-4], *(row.replace("goal", "timeout").replace(
+        row.split(",")[4], "-150") for row in rows[-4:])]) + "\n")
+    text = results.document([results.Run(poor), results.Run(good)])
+    assert "](images/paper-seed2-fig8_reward.png)" in text
+    assert "](images/paper-seeds.png)" in text
+    assert (docs / "images" / "paper-seeds.png").stat().st_size > 10_000
 
 
 def test_notes_are_taken_over(tmp_path, docs):

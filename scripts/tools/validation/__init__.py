@@ -1,0 +1,1 @@
+"""Measures the simulator against closed forms, quasi-static analysis and another engine."""
