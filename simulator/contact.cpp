@@ -14,7 +14,7 @@ namespace {
 Eigen::Matrix3d contact_frame(const Robot &robot, const ContactShape &shape, const Eigen::Vector3d &normal) {
     Eigen::Matrix3d frame;
     Eigen::Vector3d along = shape.on_crawler ? belt_direction(robot, shape.part, normal) : normal.unitOrthogonal();
-    if (along.squaredNorm() < 1e-6) {  // lying on its side
+    if (along.isZero()) {  // lying on its side
         along = normal.unitOrthogonal();
     }
     frame.col(0) = normal;

@@ -1,9 +1,16 @@
 #include "crawler.h"
 
 namespace limphome {
+namespace {
+
+constexpr double lying_flat = 1e-6;  // squared sine of the angle between sprocket and normal
+
+}  // namespace
 
 Eigen::Vector3d belt_direction(const Robot &robot, int crawler, const Eigen::Vector3d &normal) {
-    return joint_axis(robot.multibody(), crawler).direction.cross(normal);
+    const Eigen::Vector3d along = joint_axis(robot.multibody(), crawler).direction.cross(normal);
+    // However the crawler is tilted, its belt keeps its speed.
+    return along.squaredNorm() > lying_flat ? along.normalized() : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
 void add_belt(const Robot &robot, int crawler, Contact &contact) {

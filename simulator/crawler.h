@@ -5,7 +5,8 @@
 
 namespace limphome {
 
-// Unit vector in which the robot travels when the belt of `contact` runs forward without slip, along the ground.
+// Unit vector along the ground in which the robot travels when the belt runs forward without slip; 0 for a crawler that
+// lies on its side, whose belt moves nothing.
 Eigen::Vector3d belt_direction(const Robot &robot, int crawler, const Eigen::Vector3d &normal);
 
 // Adds the sprocket's column to the rows of a contact of a crawler. The surface that touches the ground is the belt; it

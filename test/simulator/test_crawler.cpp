@@ -91,6 +91,22 @@ TEST(Crawler, FrictionOpposesTheSlip) {
     }
 }
 
+// It runs round its ends at radius * sprocket rate and touches the ground along a circle's tangent, whatever the tilt.
+TEST(Crawler, TiltedBeltKeepsItsSpeed) {
+    World world(paper_robot(), left_locked());
+    run(world, {0, 0, 0.3}, 5.2);
+    run(world, {0, 0, 0, -0.3}, 4);
+    ASSERT_GT(roll(world), 0.3);
+    int touching = 0;
+    for (const Contact &contact : world.contacts()) {
+        if (world.robot().shapes()[static_cast<std::size_t>(contact.shape)].part == right && contact.impulse[0] > 0) {
+            EXPECT_NEAR(contact.jacobian.row(6 + right).norm(), 0.18, 1e-12);
+            touching++;
+        }
+    }
+    EXPECT_EQ(touching, 2);
+}
+
 TEST(Crawler, TorqueIsWhatTheGroundDoesToTheBelt) {
     World world(paper_robot(), left_locked());
     run(world, {0, belt_speed}, 5);
