@@ -130,10 +130,12 @@ limphome_policy_t convert_policy(const lh_controller *c, int32_t episode, int64_
     const lh_network *network = &c->learner.network;
     policy.num_units = network->units;
     policy.num_inputs = network->inputs;
-    memcpy(policy.weight, network->weight, sizeof network->weight);
-    memcpy(policy.width, network->width, sizeof network->width);
     for (int32_t j = 0; j < network->units; j++) {
-        memcpy(policy.centre[j], network->centre[j], sizeof network->centre[j]);
+        policy.weight[j] = network->weight[j];
+        policy.width[j] = network->width[j];
+        for (int32_t i = 0; i < network->inputs; i++) {
+            policy.centre[j][i] = network->centre[i][j];
+        }
     }
     return policy;
 }
@@ -154,7 +156,9 @@ bool convert_network(const limphome_policy_t *policy, const lh_controller *c, lh
     for (int32_t j = 0; j < policy->num_units; j++) {
         network->weight[j] = policy->weight[j];
         network->width[j] = policy->width[j];
-        memcpy(network->centre[j], policy->centre[j], (size_t)policy->num_inputs * sizeof(float));
+        for (int32_t i = 0; i < policy->num_inputs; i++) {
+            network->centre[i][j] = policy->centre[j][i];
+        }
     }
     return true;
 }

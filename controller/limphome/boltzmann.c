@@ -2,7 +2,10 @@
 
 #include <stddef.h>
 
+#include "limphome/capacity.h"
 #include "limphome/elementary.h"
+#include "limphome/exponential.h"
+#include "limphome/lanes.h"
 
 lh_error lh_boltzmann_temperature(int32_t episode, float floor, float *temperature) {
     if (episode < 1) {
@@ -13,44 +16,93 @@ lh_error lh_boltzmann_temperature(int32_t episode, float floor, float *temperatu
     return LH_OK;
 }
 
+/* The largest of q[count], found in LH_LANES strands. */
+static float largest(const float *q, int32_t count) {
+    float strand[LH_LANES];
+    for (int32_t lane = 0; lane < LH_LANES; ++lane) {
+        strand[lane] = q[0];
+    }
+    int32_t whole = count / LH_LANES * LH_LANES;
+    for (int32_t i = 0; i < whole; i += LH_LANES) {
+        for (int32_t lane = 0; lane < LH_LANES; ++lane) {
+            strand[lane] = q[i + lane] > strand[lane] ? q[i + lane] : strand[lane];
+        }
+    }
+    float most = q[count - 1];
+    for (int32_t i = whole; i < count; ++i) {
+        most = q[i] > most ? q[i] : most;
+    }
+    for (int32_t lane = 0; lane < LH_LANES; ++lane) {
+        most = strand[lane] > most ? strand[lane] : most;
+    }
+    return most;
+}
+
 int32_t lh_boltzmann_greedy(const float *q, int32_t count) {
+    float most = largest(q, count);
     int32_t best = 0;
-    for (int32_t i = 1; i < count; ++i) {
-        best = q[i] > q[best] ? i : best;
+    while (q[best] < most) {
+        ++best;
     }
     return best;
 }
 
-/* Sum of exp((q - q_max) / T), the denominator of (3) over exp(q_max / T): between 1 and count. */
+/* likelihood[LH_LANES] = exp((q - q_max) / T), the numerators of (3) over exp(q_max / T), for the first of q[count];
+ * 0 from q[count] on. Returns their sum. */
+static float likelihoods(const float *q, int32_t count, float temperature, float q_max, float *restrict likelihood) {
+    float rest[LH_LANES];
+    if (count < LH_LANES) {
+        for (int32_t lane = 0; lane < LH_LANES; ++lane) {
+            rest[lane] = lane < count ? q[lane] : -FLT_MAX;
+        }
+        q = rest;
+    }
+    for (int32_t lane = 0; lane < LH_LANES; ++lane) {
+        likelihood[lane] = lh_exponential((q[lane] - q_max) / temperature);
+    }
+    return lh_sum_lanes(likelihood);
+}
+
+/* Sum of the likelihoods: between 1 and count. */
 static float partition(const float *q, int32_t count, float temperature, float q_max) {
+    float likelihood[LH_LANES];
     float sum = 0.0f;
-    for (int32_t i = 0; i < count; ++i) {
-        sum += lh_exp((q[i] - q_max) / temperature);
+    for (int32_t i = 0; i < count; i += LH_LANES) {
+        sum += likelihoods(&q[i], count - i, temperature, q_max, likelihood);
     }
     return sum;
 }
 
 int32_t lh_boltzmann_select(const float *q, int32_t count, float temperature, lh_random *random, float *probability) {
-    float q_max = q[lh_boltzmann_greedy(q, count)];
+    float q_max = largest(q, count);
     float total = partition(q, count, temperature, q_max);
-
-    /* the running sum takes the same roundings as `total`, which is above the target, so it passes the target */
     float target = lh_random_uniform(random) * total;
+
+    /* the block in which the running sum passes the target: it takes the same roundings as `total` */
+    float likelihood[LH_LANES];
+    float below = 0.0f;
     int32_t chosen = 0;
-    float weight = lh_exp((q[0] - q_max) / temperature);
-    float sum = weight;
-    while (sum <= target && chosen + 1 < count) {
-        ++chosen;
-        weight = lh_exp((q[chosen] - q_max) / temperature);
-        sum += weight;
+    float sum = likelihoods(q, count, temperature, q_max, likelihood);
+    while (below + sum <= target && chosen + LH_LANES < count) {
+        chosen += LH_LANES;
+        below += sum;
+        sum = likelihoods(&q[chosen], count - chosen, temperature, q_max, likelihood);
+    }
+    /* the place in the block, which rounding must not make one of likelihood 0 */
+    int32_t lane = 0;
+    for (int32_t i = 0; i < LH_LANES && below <= target; ++i) {
+        if (likelihood[i] > 0.0f) {
+            lane = i;
+            below += likelihood[i];
+        }
     }
     if (probability != NULL) {
-        *probability = weight / total;
+        *probability = likelihood[lane] / total;
     }
-    return chosen;
+    return chosen + lane;
 }
 
 float lh_boltzmann_probability(const float *q, int32_t count, float temperature, int32_t index) {
-    float q_max = q[lh_boltzmann_greedy(q, count)];
+    float q_max = largest(q, count);
     return lh_exp((q[index] - q_max) / temperature) / partition(q, count, temperature, q_max);
 }

@@ -1,7 +1,8 @@
 /* Compile-time capacities. Every struct of the library has its full size by them; nothing is allocated.
  * Define any of them on the command line to make the library smaller or larger; all sources and callers must agree.
  *
- * Bytes: lh_network 4 * LH_MAX_UNITS * (LH_MAX_INPUTS + 2) + 8; action values 4 * LH_MAX_ACTIONS. */
+ * Bytes, with S = LH_UNIT_SLOTS: lh_network 4 * S * (LH_MAX_INPUTS + 2) + 8; action values 4 * LH_MAX_ACTIONS;
+ * lh_action_scratch 4 * S * (LH_ACTION_LEVELS * LH_MAX_ACTUATORS + 1). */
 #ifndef LIMPHOME_CAPACITY_H
 #define LIMPHOME_CAPACITY_H
 
@@ -24,5 +25,10 @@
 #define LH_ACTION_LEVELS 3                         /* reverse, still, forward: Table 1 */
 #define LH_MAX_INPUTS (2 * LH_MAX_ACTUATORS + 2)   /* states and actions of all actuators, roll, pitch */
 #define LH_MAX_STATE_INPUTS (LH_MAX_ACTUATORS + 2) /* states of all actuators, roll, pitch */
+
+/* Units are computed this many at a time, and sums over units taken in this many parts: loops of constant length become
+ * vector code. Part of the definition of the results, so equal on every platform. */
+#define LH_LANES 8
+#define LH_UNIT_SLOTS ((LH_MAX_UNITS + LH_LANES - 1) / LH_LANES * LH_LANES)
 
 #endif

@@ -1,7 +1,8 @@
 #include "limphome/elementary.h"
 
 #include <stdint.h>
-#include <string.h>
+
+#include "limphome/exponential.h"
 
 /* Wider intermediate results, as of the x87, would give other bits. */
 _Static_assert(FLT_EVAL_METHOD == 0, "float must be evaluated as float");
@@ -9,31 +10,12 @@ _Static_assert(FLT_EVAL_METHOD == 0, "float must be evaluated as float");
 #define INFINITE __builtin_inff()
 #define NOT_A_NUMBER __builtin_nanf("")
 
-/* ln 2 and pi/2 as sums of floats, all but the last so short that small multiples of them are exact. */
-#define LN2_1 0.693145751953125f
-#define LN2_2 1.428606765330187e-06f
+/* pi/2 as a sum of floats, all but the last so short that small multiples of them are exact. */
 #define QUARTER_1 1.5703125f
 #define QUARTER_2 0.0004837512969970703f
 #define QUARTER_3 7.549790126404332e-08f
 
 #define LARGEST_ANGLE 8192.0f
-
-static uint32_t bits_of(float x) {
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
-static float float_of(uint32_t bits) {
-    float x;
-    memcpy(&x, &bits, sizeof x);
-    return x;
-}
-
-/* 2^n for a normal result. */
-static float power_of_two(int32_t n) {
-    return float_of((uint32_t)(n + 127) << 23);
-}
 
 /* |x| must be below 2^31. */
 static int32_t nearest(float x) {
@@ -41,26 +23,7 @@ static int32_t nearest(float x) {
 }
 
 float lh_exp(float x) {
-    if (x != x) {
-        return x;
-    }
-    if (x > 88.722839f) {
-        return INFINITE;
-    }
-    if (x < -103.972084f) {
-        return 0.0f;
-    }
-
-    /* e^x = 2^n e^r with |r| <= ln(2) / 2; then the series, whose next term is below 6e-9 */
-    int32_t n = nearest(x * 1.44269504f);
-    float r = x - (float)n * LN2_1 - (float)n * LN2_2;
-    float tail = 1.0f / 120.0f + r * (1.0f / 720.0f + r * (1.0f / 5040.0f));
-    float series = 0.5f + r * (1.0f / 6.0f + r * (1.0f / 24.0f + r * tail));
-    float power = 1.0f + (r + r * r * series);
-
-    /* in two steps, as 2^n alone may be too large or too small to be normal */
-    int32_t half = n / 2;
-    return power * power_of_two(half) * power_of_two(n - half);
+    return lh_exponential(x > 89.0f ? 89.0f : x); /* above the result is infinite anyway */
 }
 
 float lh_log(float x) {
@@ -80,17 +43,17 @@ float lh_log(float x) {
         x *= 0x1p23f;
         k = -23;
     }
-    uint32_t above = bits_of(x) - bits_of(0.70710678f);
+    uint32_t above = lh_bits_of(x) - lh_bits_of(0.70710678f);
     k += (int32_t)above >> 23;
-    float f = float_of((above & 0x007fffffu) + bits_of(0.70710678f)) - 1.0f;
+    float f = lh_float_of((above & 0x007fffffu) + lh_bits_of(0.70710678f)) - 1.0f;
 
     /* log(1 + f) = 2 artanh(s), by its series in s; written so that f, which is exact, is the leading term */
     float s = f / (2.0f + f);
     float z = s * s;
     float series = z * (2.0f / 3.0f + z * (2.0f / 5.0f + z * (2.0f / 7.0f + z * (2.0f / 9.0f))));
     float half_square = 0.5f * f * f;
-    float correction = s * (half_square + series) + (float)k * LN2_2;
-    return (float)k * LN2_1 + (f - (half_square - correction));
+    float correction = s * (half_square + series) + (float)k * LH_LN2_2;
+    return (float)k * LH_LN2_1 + (f - (half_square - correction));
 }
 
 /* x - n pi/2, exact but for the rounding of the result, for |n| < 2^13. */

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "limphome/action_values.h"
 #include "limphome/network.h"
 #include "limphome/random.h"
 
@@ -25,8 +26,10 @@ typedef struct lh_learner {
     int32_t num_actions; /* joint actions, 3^n */
     lh_network network;
     lh_random random;
-    float q[LH_MAX_ACTIONS]; /* Q(s, a) of the newest state [num_actions] */
     int64_t clamped;         /* network parameters held at a limit so far */
+    float q_max;             /* the largest of q */
+    float q[LH_MAX_ACTIONS]; /* Q(s, a) of the newest state [num_actions] */
+    lh_action_scratch scratch;
 } lh_learner;
 
 /* Choice of one decision. */

@@ -4,6 +4,11 @@
 #include <string.h>
 
 #include "limphome/elementary.h"
+#include "limphome/exponential.h"
+#include "limphome/lanes.h"
+
+/* Largest change of y. With it no product in (19)-(21) is infinite but the last of (20), so that no NaN can arise. */
+#define LARGEST_STEP 1e20f
 
 lh_network_config lh_network_config_default(void) {
     return (lh_network_config){
@@ -53,10 +58,22 @@ lh_error lh_network_init(lh_network *network, const lh_network_config *config, l
         network->weight[j] = config->initial_weight;
         network->width[j] = config->initial_width;
         for (int32_t i = 0; i < config->inputs; ++i) {
-            network->centre[j][i] = lh_random_uniform(random);
+            network->centre[i][j] = lh_random_uniform(random);
         }
     }
     return LH_OK;
+}
+
+static bool rest_is_zero(const lh_network *network) {
+    bool zero = true;
+    for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
+        bool used = j < network->units;
+        zero = zero && (used || (network->weight[j] == 0.0f && network->width[j] == 0.0f));
+        for (int32_t i = 0; i < LH_MAX_INPUTS; ++i) {
+            zero = zero && ((used && i < network->inputs) || network->centre[i][j] == 0.0f);
+        }
+    }
+    return zero;
 }
 
 lh_error lh_network_validate(const lh_network *network, const lh_network_config *config) {
@@ -67,74 +84,105 @@ lh_error lh_network_validate(const lh_network *network, const lh_network_config 
         bool good = lh_within(network->weight[j], -config->weight_limit, config->weight_limit) &&
                     lh_within(network->width[j], config->width_floor, LH_WIDTH_LIMIT);
         for (int32_t i = 0; i < network->inputs; ++i) {
-            good = good && lh_within(network->centre[j][i], -LH_CENTRE_LIMIT, LH_CENTRE_LIMIT);
+            good = good && lh_within(network->centre[i][j], -LH_CENTRE_LIMIT, LH_CENTRE_LIMIT);
         }
         if (!good) {
             return LH_ERROR_NETWORK;
         }
     }
-    return LH_OK;
+    return rest_is_zero(network) ? LH_OK : LH_ERROR_NETWORK;
 }
 
-/* ||x - mu_j||^2 */
-static float squared_distance(const float *x, const float *centre, int32_t inputs) {
-    float sum = 0.0f;
-    for (int32_t i = 0; i < inputs; ++i) {
-        float difference = x[i] - centre[i];
-        sum += difference * difference;
+void lh_network_precisions(const lh_network *network, float *precision) {
+    const float *width = network->width;
+    for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
+        precision[j] = width[j] > 0.0f ? 1.0f / (width[j] * width[j]) : 0.0f;
     }
-    return sum;
 }
 
-float lh_network_value(const lh_network *network, const float *x, float *phi) {
-    float y = 0.0f;
-    for (int32_t j = 0; j < network->units; ++j) {
-        float width = network->width[j];
-        float activation = lh_exp(-squared_distance(x, network->centre[j], network->inputs) / (width * width));
-        if (phi != NULL) {
-            phi[j] = activation;
+/* distance[j] = ||x - mu_j||^2 */
+static void measure(const lh_network *restrict network, const float *restrict x, float *restrict distance) {
+    for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
+        distance[j] = 0.0f;
+    }
+    for (int32_t i = 0; i < network->inputs; ++i) {
+        const float *centre = network->centre[i];
+        float input = x[i];
+        for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
+            float difference = input - centre[j];
+            distance[j] += difference * difference;
         }
-        y += network->weight[j] * activation;
     }
-    return y;
 }
 
-/* `updated`, or the limit it would pass, or `value` where it is not finite; counts what it had to hold. */
-static float held(float value, float updated, float low, float high, int32_t *count) {
-    if (lh_within(updated, low, high)) {
-        return updated;
+float lh_network_value(const lh_network *network, const float *x, lh_activation *at) {
+    lh_network_precisions(network, at->precision);
+    measure(network, x, at->distance);
+    for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
+        float phi = lh_exponential(-at->distance[j] * at->precision[j]);
+        at->phi[j] = at->precision[j] > 0.0f ? phi : 0.0f;
     }
-    ++*count;
-    if (!lh_finite(updated)) {
-        return value;
-    }
-    return updated < low ? low : high;
+    return lh_dot(network->weight, at->phi);
 }
 
-int32_t lh_network_learn(lh_network *network, const lh_network_config *config, const float *x, float learning_rate,
-                         float td_error) {
+/* `updated`, or the limit it would pass; *held counts how many did. */
+static inline float limited(float updated, float low, float high, int32_t *held) {
+    float kept = updated < low ? low : updated;
+    kept = kept > high ? high : kept;
+    *held += kept != updated;
+    return kept;
+}
+
+/* (19) */
+static int32_t learn_weights(float *restrict weight, const lh_network_config *config, const float *restrict phi,
+                             float step) {
+    int32_t held = 0;
+    float rate = config->rate_weight * step;
+    float limit = config->weight_limit;
+    for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
+        weight[j] = limited(weight[j] + rate * phi[j], -limit, limit, &held);
+    }
+    return held;
+}
+
+/* (20) */
+static int32_t learn_widths(float *restrict width, const lh_network_config *config, int32_t units,
+                            const float *restrict pull, const float *restrict distance) {
+    int32_t held = 0;
+    for (int32_t j = 0; j < units; ++j) {
+        float updated = width[j] + config->rate_width * pull[j] * distance[j] / width[j];
+        width[j] = limited(updated, config->width_floor, LH_WIDTH_LIMIT, &held);
+    }
+    return held;
+}
+
+/* (21) for one input */
+static int32_t learn_centres(float *restrict centre, float rate, const float *restrict pull, float input) {
+    int32_t held = 0;
+    for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
+        float updated = centre[j] + rate * pull[j] * (input - centre[j]);
+        centre[j] = limited(updated, -LH_CENTRE_LIMIT, LH_CENTRE_LIMIT, &held);
+    }
+    return held;
+}
+
+int32_t lh_network_learn(lh_network *network, const lh_network_config *config, const float *x, const lh_activation *at,
+                         float learning_rate, float td_error) {
     /* as printed, the change of y is alpha delta and (19)-(21) have alpha once more, but no factor 2 from the square */
     float step = learning_rate * td_error * (config->exact_gradient ? 1.0f : learning_rate);
-    float factor = config->exact_gradient ? 2.0f : 1.0f;
-    float phi[LH_MAX_UNITS];
-    lh_network_value(network, x, phi);
-
-    int32_t count = 0;
-    for (int32_t j = 0; j < network->units; ++j) {
-        float *centre = network->centre[j];
-        float weight = network->weight[j];
-        float width = network->width[j];
-        float distance = squared_distance(x, centre, network->inputs);
-        float pull = factor * step * weight * phi[j] / (width * width);
-
-        float new_weight = weight + config->rate_weight * step * phi[j];
-        network->weight[j] = held(weight, new_weight, -config->weight_limit, config->weight_limit, &count);
-        float new_width = width + config->rate_width * pull * distance / width;
-        network->width[j] = held(width, new_width, config->width_floor, LH_WIDTH_LIMIT, &count);
-        for (int32_t i = 0; i < network->inputs; ++i) {
-            float new_centre = centre[i] + config->rate_centre * pull * (x[i] - centre[i]);
-            centre[i] = held(centre[i], new_centre, -LH_CENTRE_LIMIT, LH_CENTRE_LIMIT, &count);
-        }
+    float factor = config->exact_gradient ? 2.0f * step : step;
+    if (!lh_within(step, -LARGEST_STEP, LARGEST_STEP)) {
+        return network->units * (2 + network->inputs);
     }
-    return count;
+
+    float pull[LH_UNIT_SLOTS]; /* step w_j phi_j / sigma_j^2, what (20) and (21) share */
+    for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
+        pull[j] = factor * network->weight[j] * at->phi[j] * at->precision[j];
+    }
+    int32_t held = learn_weights(network->weight, config, at->phi, step);
+    held += learn_widths(network->width, config, network->units, pull, at->distance);
+    for (int32_t i = 0; i < network->inputs; ++i) {
+        held += learn_centres(network->centre[i], config->rate_centre, pull, x[i]);
+    }
+    return held;
 }

@@ -33,13 +33,14 @@ typedef struct lh_network_config {
     bool exact_gradient;
 } lh_network_config;
 
-/* Parameters that are learned. Only the first `units` rows and `inputs` columns are used; the rest is 0. */
+/* Parameters that are learned, side by side for all units. Only the first `inputs` rows and `units` columns are used;
+ * the rest is 0 and takes part in the computations without an effect, as loops of constant length are vector code. */
 typedef struct lh_network {
     int32_t units;
     int32_t inputs;
-    float weight[LH_MAX_UNITS];                /* w_j [units] */
-    float width[LH_MAX_UNITS];                 /* sigma_j [units], width_floor to LH_WIDTH_LIMIT */
-    float centre[LH_MAX_UNITS][LH_MAX_INPUTS]; /* mu_ij [units][inputs], |.| up to LH_CENTRE_LIMIT */
+    float weight[LH_UNIT_SLOTS];                /* w_j [units] */
+    float width[LH_UNIT_SLOTS];                 /* sigma_j [units], width_floor to LH_WIDTH_LIMIT */
+    float centre[LH_MAX_INPUTS][LH_UNIT_SLOTS]; /* mu_ij [inputs][units], |.| up to LH_CENTRE_LIMIT */
 } lh_network;
 
 /* Table 2, with 50 units and 10 inputs. */
@@ -52,17 +53,29 @@ lh_error lh_network_config_validate(const lh_network_config *config);
  * An invalid configuration is returned as its error and nothing is changed. */
 lh_error lh_network_init(lh_network *network, const lh_network_config *config, lh_random *random);
 
-/* LH_OK if `network` fits the configuration and every parameter is finite and within its limits. */
+/* LH_OK if `network` fits the configuration every parameter is finite and within its limits, and the rest is
+ * 0. */
 lh_error lh_network_validate(const lh_network *network, const lh_network_config *config);
 
-/* y of (13) at x[inputs]. phi[units], if not NULL, receives phi_j(x) of (14). */
-float lh_network_value(const lh_network *network, const float *x, float *phi);
+/* What (13) and (19)-(21) need of every unit at one input x; beyond the last unit precision and phi are 0. */
+typedef struct lh_activation {
+    float precision[LH_UNIT_SLOTS]; /* 1 / sigma_j^2 */
+    float distance[LH_UNIT_SLOTS];  /* ||x - mu_j||^2 */
+    float phi[LH_UNIT_SLOTS];       /* phi_j(x) of (14) */
+} lh_activation;
+
+/* y of (13) at x[inputs]; fills *at. */
+float lh_network_value(const lh_network *network, const float *x, lh_activation *at);
+
+/* Fills precision[LH_UNIT_SLOTS] with 1 / sigma_j^2, and 0 beyond the last unit. */
+void lh_network_precisions(const lh_network *network, float *precision);
 
 /* One step of (19)-(21) towards y + alpha * delta at x[inputs]: `learning_rate` is alpha of (2), `td_error` delta of
- * (1). All three use the values from before the step. Parameters that would leave their limits, or not be finite, are
- * held at the limit or left as they are. Returns how many were. */
-int32_t lh_network_learn(lh_network *network, const lh_network_config *config, const float *x, float learning_rate,
-                         float td_error);
+ * (1), and *at is what lh_network_value gave at x. All three use the values from before the step. Parameters that would
+ * leave their limits are held there; all are left as they are where y would change by more than 1e20 or is not finite.
+ * Returns how many were held or left. */
+int32_t lh_network_learn(lh_network *network, const lh_network_config *config, const float *x, const lh_activation *at,
+                         float learning_rate, float td_error);
 
 #ifdef __cplusplus
 }

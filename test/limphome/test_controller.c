@@ -10,6 +10,11 @@
 static lh_controller controller;
 static lh_controller other;
 
+static float value(const lh_network *network, const float *x) {
+    lh_activation at;
+    return lh_network_value(network, x, &at);
+}
+
 static const float facing_y = (float)M_PI_2;
 
 static void init(lh_controller *c, const lh_config *config) {
@@ -216,7 +221,7 @@ START_TEST(one_step_is_rewarded_and_learned) {
     other = controller;
     other.learner.network = before;
     const float q_max = lh_learner_evaluate(&other.learner, d.inputs);
-    const float expected = lh_reward_total(&d.reward) + 0.9f * q_max - lh_network_value(&before, first.inputs, NULL);
+    const float expected = lh_reward_total(&d.reward) + 0.9f * q_max - value(&before, first.inputs);
     expect_near(d.td_error, expected, 1e-6);
     lh_learner_learn(&other.learner, states, first.choice.action, lh_reward_total(&d.reward), q_max, false);
     ck_assert_mem_eq(&other.learner.network, &controller.learner.network, sizeof before);
@@ -232,7 +237,7 @@ START_TEST(goal_is_terminal_and_the_next_line_lies_ahead) {
     config.learner.network.initial_weight = 0.3f;
     init(&controller, &config);
     const lh_decision first = step_at(&controller, 0.0f, 0.0f);
-    const float q = lh_network_value(&controller.learner.network, first.inputs, NULL);
+    const float q = value(&controller.learner.network, first.inputs);
     const lh_state state = crawler_state(-0.3f, 2.1f, facing_y + 0.5f);
     const lh_decision d = step(&controller, &state);
     ck_assert(d.stepped && d.learned && d.ended && !d.reset);
@@ -267,7 +272,7 @@ START_TEST(tumble_is_punished_terminal_and_reset) {
     config.learner.network.initial_weight = 0.3f;
     init(&controller, &config);
     const lh_decision first = step_at(&controller, 0.0f, 0.0f);
-    const float q = lh_network_value(&controller.learner.network, first.inputs, NULL);
+    const float q = value(&controller.learner.network, first.inputs);
     const lh_state tumbled = tumbled_state((lh_vec3){1, 0, 0});
     const lh_decision d = step(&controller, &tumbled);
     ck_assert(d.stepped && d.learned && d.ended && d.reset);
@@ -314,7 +319,7 @@ START_TEST(timeout_goes_on_bootstrapping) {
     const lh_decision first = step_at(&controller, 0.0f, 0.1f);
     ck_assert(!first.ended);
     other = controller;
-    const float q = lh_network_value(&other.learner.network, first.inputs, NULL);
+    const float q = value(&other.learner.network, first.inputs);
     const lh_decision d = step_at(&controller, 0.0f, 0.2f);
     ck_assert(d.ended && !d.reset);
     ck_assert_int_eq(d.summary.outcome, LH_OUTCOME_TIMEOUT);

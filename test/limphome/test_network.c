@@ -18,9 +18,23 @@ static lh_network reference_network(void) {
     memcpy(network.weight, network_weight, sizeof network_weight);
     memcpy(network.width, network_width, sizeof network_width);
     for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
-        memcpy(network.centre[j], network_centre[j], sizeof network_centre[j]);
+        for (int32_t i = 0; i < NETWORK_INPUTS; ++i) {
+            network.centre[i][j] = network_centre[j][i];
+        }
     }
     return network;
+}
+
+static float value(const lh_network *network, const float *x) {
+    lh_activation at;
+    return lh_network_value(network, x, &at);
+}
+
+static int32_t learn(lh_network *network, const lh_network_config *config, const float *x, float learning_rate,
+                     float td_error) {
+    lh_activation at;
+    lh_network_value(network, x, &at);
+    return lh_network_learn(network, config, x, &at, learning_rate, td_error);
 }
 
 START_TEST(defaults_are_those_of_table_2) {
@@ -86,7 +100,7 @@ START_TEST(initial_values) {
         ck_assert_float_eq(network.width[j], j < 50 ? 1.0f : 0.0f);
         for (int32_t i = 0; i < LH_MAX_INPUTS; ++i) {
             const float expected = j < 50 && i < 10 ? lh_random_uniform(&same) : 0.0f;
-            ck_assert_float_eq(network.centre[j][i], expected);
+            ck_assert_float_eq(network.centre[i][j], expected);
         }
     }
     ck_assert_mem_eq(&random, &same, sizeof random);
@@ -96,11 +110,10 @@ END_TEST
 START_TEST(value_against_reference) {
     const lh_network network = reference_network();
     for (int32_t k = 0; k < COUNT(network_x); ++k) {
-        float phi[LH_MAX_UNITS];
-        expect_near(lh_network_value(&network, network_x[k], phi), network_y[k], 3e-6);
-        expect_near(lh_network_value(&network, network_x[k], NULL), network_y[k], 3e-6);
-        for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
-            expect_near(phi[j], network_phi[k][j], 5e-7);
+        lh_activation at;
+        expect_near(lh_network_value(&network, network_x[k], &at), network_y[k], 3e-6);
+        for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
+            expect_near(at.phi[j], j < NETWORK_UNITS ? network_phi[k][j] : 0.0, 5e-7);
         }
     }
 }
@@ -118,13 +131,13 @@ static void expect_learned(bool exact, const double (*weight)[NETWORK_UNITS], co
     const lh_network before = reference_network();
     for (int32_t k = 0; k < COUNT(network_x); ++k) {
         lh_network network = before;
-        ck_assert_int_eq(lh_network_learn(&network, &config, network_x[k], learn_alpha[k], learn_delta[k]), 0);
+        ck_assert_int_eq(learn(&network, &config, network_x[k], learn_alpha[k], learn_delta[k]), 0);
         for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
             expect_change(network.weight[j], weight[k][j], before.weight[j], fabs(weight[k][j] - before.weight[j]));
             expect_change(network.width[j], width[k][j], before.width[j], fabs(width[k][j] - before.width[j]));
             for (int32_t i = 0; i < NETWORK_INPUTS; ++i) {
-                const float old = before.centre[j][i];
-                expect_change(network.centre[j][i], centre[k][j][i], old, fabs(centre[k][j][i] - old));
+                const float old = before.centre[i][j];
+                expect_change(network.centre[i][j], centre[k][j][i], old, fabs(centre[k][j][i] - old));
             }
         }
     }
@@ -144,12 +157,12 @@ START_TEST(learning_moves_the_value_towards_the_target) {
     lh_network_config config = reference_config();
     config.exact_gradient = true;
     lh_network network = reference_network();
-    const float before = lh_network_value(&network, network_x[0], NULL);
-    lh_network_learn(&network, &config, network_x[0], 0.1f, 1.0f);
-    ck_assert_float_gt(lh_network_value(&network, network_x[0], NULL), before);
+    const float before = value(&network, network_x[0]);
+    learn(&network, &config, network_x[0], 0.1f, 1.0f);
+    ck_assert_float_gt(value(&network, network_x[0]), before);
     network = reference_network();
-    lh_network_learn(&network, &config, network_x[0], 0.1f, -1.0f);
-    ck_assert_float_lt(lh_network_value(&network, network_x[0], NULL), before);
+    learn(&network, &config, network_x[0], 0.1f, -1.0f);
+    ck_assert_float_lt(value(&network, network_x[0]), before);
 }
 END_TEST
 
@@ -158,7 +171,7 @@ START_TEST(width_stops_at_its_floor) {
     config.rate_width = 10.0f;
     lh_network network = reference_network();
     /* a negative error narrows the units of positive weight and widens the others */
-    ck_assert_int_gt(lh_network_learn(&network, &config, network_x[0], 1.0f, -1000.0f), 0);
+    ck_assert_int_gt(learn(&network, &config, network_x[0], 1.0f, -1000.0f), 0);
     int32_t at_floor = 0;
     for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
         ck_assert_float_ge(network.width[j], config.width_floor);
@@ -167,7 +180,7 @@ START_TEST(width_stops_at_its_floor) {
     }
     ck_assert_int_gt(at_floor, 0);
     ck_assert_int_eq(lh_network_validate(&network, &config), LH_OK);
-    ck_assert(isfinite(lh_network_value(&network, network_x[0], NULL)));
+    ck_assert(isfinite(value(&network, network_x[0])));
 }
 END_TEST
 
@@ -176,11 +189,11 @@ START_TEST(weight_stops_at_its_limit) {
     config.rate_width = config.rate_centre = 0.0f;
     config.weight_limit = 20.0f;
     lh_network network = reference_network();
-    ck_assert_int_eq(lh_network_learn(&network, &config, network_x[0], 1.0f, 1e6f), NETWORK_UNITS);
+    ck_assert_int_eq(learn(&network, &config, network_x[0], 1.0f, 1e6f), NETWORK_UNITS);
     for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
         ck_assert_float_eq(network.weight[j], 20.0f);
     }
-    ck_assert_int_eq(lh_network_learn(&network, &config, network_x[0], 1.0f, -1e6f), NETWORK_UNITS);
+    ck_assert_int_eq(learn(&network, &config, network_x[0], 1.0f, -1e6f), NETWORK_UNITS);
     for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
         ck_assert_float_eq(network.weight[j], -20.0f);
     }
@@ -192,7 +205,7 @@ START_TEST(centre_stops_at_its_limit) {
     config.rate_weight = config.rate_width = 0.0f;
     config.rate_centre = 10.0f;
     lh_network network = reference_network();
-    ck_assert_int_gt(lh_network_learn(&network, &config, network_x[0], 1.0f, 1e6f), 0);
+    ck_assert_int_gt(learn(&network, &config, network_x[0], 1.0f, 1e6f), 0);
     ck_assert_int_eq(lh_network_validate(&network, &config), LH_OK);
 }
 END_TEST
@@ -204,17 +217,16 @@ START_TEST(what_is_not_finite_is_never_stored) {
         lh_network network = reference_network();
         const lh_network before = network;
         /* all weights and widths and every centre */
-        ck_assert_int_eq(lh_network_learn(&network, &config, network_x[0], 0.1f, errors[k]),
-                         NETWORK_UNITS * (2 + NETWORK_INPUTS));
+        ck_assert_int_eq(learn(&network, &config, network_x[0], 0.1f, errors[k]), NETWORK_UNITS * (2 + NETWORK_INPUTS));
         ck_assert_mem_eq(&network, &before, sizeof network);
     }
     const float finite[] = {FLT_MAX, -FLT_MAX, 1e30f, -1e30f};
     for (int32_t k = 0; k < COUNT(finite); ++k) {
         lh_network network = reference_network();
         for (int32_t repeat = 0; repeat < 5; ++repeat) {
-            lh_network_learn(&network, &config, network_x[k], 1.0f, finite[k]);
+            learn(&network, &config, network_x[k], 1.0f, finite[k]);
             ck_assert_int_eq(lh_network_validate(&network, &config), LH_OK);
-            ck_assert(isfinite(lh_network_value(&network, network_x[k], NULL)));
+            ck_assert(isfinite(value(&network, network_x[k])));
         }
     }
 }
@@ -225,9 +237,9 @@ START_TEST(network_of_extremes_has_a_finite_value) {
     for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
         network.weight[j] = 1e6f;
         network.width[j] = 0.01f;
-        network.centre[j][0] = j % 2 ? LH_CENTRE_LIMIT : network_x[0][0];
+        network.centre[0][j] = j % 2 ? LH_CENTRE_LIMIT : network_x[0][0];
     }
-    ck_assert(isfinite(lh_network_value(&network, network_x[0], NULL)));
+    ck_assert(isfinite(value(&network, network_x[0])));
 }
 END_TEST
 
@@ -248,8 +260,12 @@ START_TEST(bad_networks_are_refused) {
     BAD(weight[0], -INFINITY);
     BAD(width[0], 0.0499f);
     BAD(width[NETWORK_UNITS - 1], INFINITY);
-    BAD(centre[NETWORK_UNITS - 1][NETWORK_INPUTS - 1], NAN);
+    BAD(centre[NETWORK_INPUTS - 1][NETWORK_UNITS - 1], NAN);
     BAD(centre[0][0], 1001.0f);
+    BAD(weight[NETWORK_UNITS], 0.1f);
+    BAD(width[LH_UNIT_SLOTS - 1], 1.0f);
+    BAD(centre[0][NETWORK_UNITS], 0.1f);
+    BAD(centre[NETWORK_INPUTS][0], NAN);
 #undef BAD
 }
 END_TEST

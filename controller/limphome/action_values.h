@@ -1,0 +1,31 @@
+/* Q(s, a) of all joint actions at once. Each phi_j of (14) is a product over the inputs,
+ *
+ *     Q(s, a) = sum_j [w_j g_j(s)] prod_k f_jk(a_k),
+ *
+ * so that one exponential per unit for the state and one per unit, actuator and level are enough for all of them. */
+#ifndef LIMPHOME_ACTION_VALUES_H
+#define LIMPHOME_ACTION_VALUES_H
+
+#include <stdint.h>
+
+#include "limphome/network.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Room to compute in; nothing in it lasts. */
+typedef struct lh_action_scratch {
+    float precision[LH_UNIT_SLOTS];                                  /* 1 / sigma_j^2 */
+    float factor[LH_MAX_ACTUATORS][LH_ACTION_LEVELS][LH_UNIT_SLOTS]; /* f_jk(level) */
+} lh_action_scratch;
+
+/* Computes q[3^num_controlled] by (13)(14), in the order of action.h, at states[num_states]; the network has
+ * num_states + num_controlled inputs. Returns the largest. */
+float lh_action_values(const lh_network *network, const float *states, int32_t num_states, lh_action_scratch *scratch,
+                       float *q);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
