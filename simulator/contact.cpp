@@ -1,7 +1,5 @@
 #include "contact.h"
 
-#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
-
 #include <algorithm>
 
 #include "convert.h"
@@ -47,16 +45,15 @@ Eigen::Vector3d initial_impulse(const Contact &contact, const std::vector<Contac
     return Eigen::Vector3d::Zero();
 }
 
-Contact make_contact(const Robot &robot, const btMultiBodyLinkCollider &collider, int child,
-                     const btManifoldPoint &found, const Eigen::Vector3d &normal) {
+Contact make_contact(const Robot &robot, const Ground &ground, const Touch &touch) {
+    const ContactShape &shape = robot.shapes()[static_cast<std::size_t>(touch.shape)];
     Contact contact;
-    contact.shape = collider.getUserIndex() + child;
-    const ContactShape &shape = robot.shapes()[static_cast<std::size_t>(contact.shape)];
-    contact.point = 0.5 * to_eigen(found.getPositionWorldOnA() + found.getPositionWorldOnB());
-    contact.frame = contact_frame(robot, shape, normal);
-    contact.depth = -found.getDistance();
-    contact.friction = shape.friction;
-    fill_jacobian(robot.multibody(), collider.m_link, contact);
+    contact.shape = touch.shape;
+    contact.point = touch.point;
+    contact.frame = contact_frame(robot, shape, touch.normal);
+    contact.depth = touch.depth;
+    contact.friction = shape.friction * ground.friction(touch.point);
+    fill_jacobian(robot.multibody(), shape.on_crawler ? -1 : shape.part, contact);
     if (shape.on_crawler) {
         add_belt(robot, shape.part, contact);
     }
@@ -65,25 +62,15 @@ Contact make_contact(const Robot &robot, const btMultiBodyLinkCollider &collider
 
 }  // namespace
 
-std::vector<Contact> collect_contacts(const Robot &robot, btDispatcher &dispatcher,
-                                      const std::vector<Contact> &previous) {
+std::vector<Contact> make_contacts(const Robot &robot, const Ground &ground, const std::vector<Touch> &touches,
+                                   const std::vector<Contact> &previous) {
     std::vector<Contact> contacts;
-    contacts.reserve(robot.shapes().size());
-    const auto add = [&](const Contact &contact) {
-        const auto place = std::upper_bound(contacts.begin(), contacts.end(), contact,
-                                            [](const Contact &a, const Contact &b) { return a.shape < b.shape; });
-        contacts.insert(place, contact)->impulse = initial_impulse(contact, previous);
-    };
-    for (int m = 0; m < dispatcher.getNumManifolds(); m++) {
-        const btPersistentManifold &manifold = *dispatcher.getManifoldByIndexInternal(m);
-        const auto *first = btMultiBodyLinkCollider::upcast(manifold.getBody0());
-        const auto *second = btMultiBodyLinkCollider::upcast(manifold.getBody1());
-        for (int i = 0; i < manifold.getNumContacts(); i++) {
-            const btManifoldPoint &point = manifold.getContactPoint(i);
-            const Eigen::Vector3d normal = to_eigen(point.m_normalWorldOnB);  // from body 1 into body 0
-            add(first != nullptr ? make_contact(robot, *first, point.m_index0, point, normal)
-                                 : make_contact(robot, *second, point.m_index1, point, -normal));
-        }
+    contacts.reserve(touches.size());
+    for (const Touch &touch : touches) {
+        const auto place = std::upper_bound(contacts.begin(), contacts.end(), touch.shape,
+                                            [](int shape, const Contact &other) { return shape < other.shape; });
+        const auto contact = contacts.insert(place, make_contact(robot, ground, touch));
+        contact->impulse = initial_impulse(*contact, previous);
     }
     return contacts;
 }

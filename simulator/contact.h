@@ -1,13 +1,12 @@
 // Contacts of the robot with the ground, as the solver sees them.
 #pragma once
 
-#include <BulletCollision/BroadphaseCollision/btDispatcher.h>
-
 #include <Eigen/Core>
 #include <vector>
 
 #include "mass_matrix.h"
 #include "robot.h"
+#include "touch.h"
 
 namespace limphome {
 
@@ -29,9 +28,9 @@ struct GroundStiffness {
     double damping;    // [N s/m]
 };
 
-// Collects the contacts that Bullet has found, ordered by shape, so that nothing depends on the order in which Bullet
-// keeps them. Impulses start from those of the same shape in `previous`.
-std::vector<Contact> collect_contacts(const Robot &robot, btDispatcher &dispatcher,
-                                      const std::vector<Contact> &previous);
+// Contacts ordered by shape, so that nothing depends on the order in which they were found. Impulses start from those
+// of the same shape in `previous`.
+std::vector<Contact> make_contacts(const Robot &robot, const Ground &ground, const std::vector<Touch> &touches,
+                                   const std::vector<Contact> &previous);
 
 }  // namespace limphome

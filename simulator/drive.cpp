@@ -10,34 +10,30 @@ namespace {
 
 constexpr double effort_window = 0.02;  // [s]
 
-double torque_limit(const Actuator &actuator, DriveCondition condition, double weak_factor) {
-    switch (condition) {
-        case DriveCondition::locked:
-            return std::numeric_limits<double>::infinity();
-        case DriveCondition::free:
-            return 0;
-        case DriveCondition::weak:
-            return weak_factor * actuator.effort;
-        default:
-            return actuator.effort;
-    }
-}
-
 }  // namespace
 
-Drive::Drive(const Actuator &actuator, const PidGains &gains, double time_step, DriveCondition condition,
-             double weak_factor)
+Drive::Drive(const Actuator &actuator, const PidGains &gains, double time_step)
     : gains_(gains),
       time_step_(time_step),
-      condition_(condition),
-      torque_limit_(torque_limit(actuator, condition, weak_factor)),
+      torque_limit_(actuator.effort),
       speed_limit_(actuator.speed),
       lower_(actuator.lower),
       upper_(actuator.upper),
       torques_(static_cast<std::size_t>(std::max(1.0, std::round(effort_window / time_step))), 0.0) {}
 
+void Drive::fail(DriveCondition condition, double weak_factor) {
+    condition_ = condition;
+    if (condition == DriveCondition::weak) {
+        torque_limit_ *= weak_factor;
+    } else if (condition == DriveCondition::locked || condition == DriveCondition::free) {
+        torque_limit_ = condition == DriveCondition::locked ? std::numeric_limits<double>::infinity() : 0;
+        command_ = integral_ = 0;
+        held_ = true;
+    }
+}
+
 void Drive::command(double rate) {
-    if (condition_ == DriveCondition::sound || condition_ == DriveCondition::weak) {
+    if (condition_ != DriveCondition::locked && condition_ != DriveCondition::free) {
         command_ = std::clamp(rate, -speed_limit_, speed_limit_);
     }
 }

@@ -26,13 +26,15 @@ struct PidGains {
     double derivative;    // [-]
 };
 
-enum class DriveCondition { sound, weak, locked, free };
+// A slipping drive works; it is its belt that has lost its grip.
+enum class DriveCondition { sound, weak, locked, free, slipping };
 
 class Drive {
    public:
-    Drive(const Actuator &actuator, const PidGains &gains, double time_step, DriveCondition condition,
-          double weak_factor);
+    Drive(const Actuator &actuator, const PidGains &gains, double time_step);
 
+    // From now on; a weak drive keeps this share of its torque limit.
+    void fail(DriveCondition condition, double weak_factor);
     // Wanted rate [rad/s]; a failed drive does not obey.
     void command(double rate);
     // What the solver has to see to, from angle and rate at the start of a time step.
@@ -49,7 +51,7 @@ class Drive {
    private:
     PidGains gains_;
     double time_step_;
-    DriveCondition condition_;
+    DriveCondition condition_ = DriveCondition::sound;
     double torque_limit_;
     double speed_limit_;
     double lower_, upper_;

@@ -32,7 +32,7 @@ bool Plant::run(const volatile std::sig_atomic_t *stop) {
             simulated_ += settings_.episode.decision_period_s;
             publish();
         }
-        if (!world_.finite()) {
+        if (world_.diverged()) {
             std::fprintf(stderr, "the simulation diverged at %.3f s\n", world_.time());
             report(status_t::FAULT);
             return false;

@@ -85,6 +85,8 @@ void Robot::add_crawler_edges(btCompoundShape &compound, int crawler, double fri
             const Eigen::Isometry3d pose = Eigen::Translation3d(centre) * upright;
             compound.addChildShape(to_bullet(principal_[0].inverse() * pose), circle.get());
             geometry_.push_back(std::move(circle));
+            const int front = end > 0 ? -1 : static_cast<int>(rims_.size()) - 2;
+            rims_.push_back({centre, c.axis, c.radius, front});
             shapes_.push_back({crawler, true, friction});
         }
     }
@@ -103,6 +105,7 @@ void Robot::add_collider(int body, double friction_crawler, double friction_arm)
         const Eigen::Isometry3d pose(Eigen::Translation3d(ball.centre));
         compound->addChildShape(to_bullet(principal_[index].inverse() * pose), sphere.get());
         geometry_.push_back(std::move(sphere));
+        balls_.push_back({principal_[index].inverse() * ball.centre, ball.radius});
         shapes_.push_back({body - 1, false, friction_arm});
     }
     if (compound->getNumChildShapes() == 0) {
@@ -118,6 +121,20 @@ void Robot::add_collider(int body, double friction_crawler, double friction_arm)
     }
     geometry_.push_back(std::move(compound));
     colliders_.push_back(std::move(collider));
+}
+
+Ball Robot::ball(int shape) const {
+    const Ball &own = balls_[static_cast<std::size_t>(shape) - rims_.size()];
+    const int part = shapes_[static_cast<std::size_t>(shape)].part;
+    const btTransform frame =
+        part < 0 ? multibody_.getBaseWorldTransform() : multibody_.getLink(part).m_cachedWorldTransform;
+    return {to_eigen(frame * to_bullet(own.centre)), own.radius};
+}
+
+void Robot::scale_friction(int crawler, double share) {
+    for (ContactShape &shape : shapes_) {
+        shape.friction *= shape.on_crawler && shape.part == crawler ? share : 1;
+    }
 }
 
 Eigen::Isometry3d Robot::pose() const {

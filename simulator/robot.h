@@ -20,6 +20,14 @@ struct ContactShape {
     double friction;  // Coulomb coefficient on the ground
 };
 
+// Edge of a belt at one rounded end; rims are the first of the shapes.
+struct Rim {
+    Eigen::Vector3d centre;  // in the frame of the base [m]
+    Eigen::Vector3d axis;    // to the left, in the frame of the base
+    double radius;           // [m]
+    int next_on_edge;        // at the rear: rim at the front end of the same edge; at the front: -1
+};
+
 class Robot {
    public:
     Robot(const RobotModel &model, double friction_crawler, double friction_arm);
@@ -31,6 +39,11 @@ class Robot {
     // Colliders with shapes; the user index of each is the number of its first shape.
     const std::vector<std::unique_ptr<btMultiBodyLinkCollider>> &colliders() const { return colliders_; }
     const std::vector<ContactShape> &shapes() const { return shapes_; }
+    const std::vector<Rim> &rims() const { return rims_; }
+    // The ball that is `shape`, which must not be a rim, in the world.
+    Ball ball(int shape) const;
+    // Leaves this share of the friction to the belt of a crawler.
+    void scale_friction(int crawler, double share);
 
     // Frame of the base link in the world.
     Eigen::Isometry3d pose() const;
@@ -58,6 +71,8 @@ class Robot {
     std::vector<std::unique_ptr<btCollisionShape>> geometry_;
     std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
     std::vector<ContactShape> shapes_;
+    std::vector<Rim> rims_;
+    std::vector<Ball> balls_;  // after the rims among the shapes; in the frames of Bullet's links
     btAlignedObjectArray<btQuaternion> scratch_rotations_;
     btAlignedObjectArray<btVector3> scratch_origins_;
 };

@@ -10,6 +10,8 @@
 
 #include "contact.h"
 #include "drive.h"
+#include "failure.h"
+#include "ground.h"
 #include "robot.h"
 #include "solver.h"
 
@@ -20,7 +22,7 @@ namespace limphome {
 class Pipeline final : public btMultiBodyDynamicsWorld {
    public:
     Pipeline(btDispatcher *dispatcher, btBroadphaseInterface *broadphase, btMultiBodyConstraintSolver *unused,
-             btCollisionConfiguration *configuration, Robot &robot, const Solver &solver);
+             btCollisionConfiguration *configuration, Robot &robot, const Ground &ground, const Solver &solver);
 
     std::vector<JointConstraint> joints;  // one per actuator
     std::vector<Contact> contacts;        // of the last step
@@ -34,14 +36,18 @@ class Pipeline final : public btMultiBodyDynamicsWorld {
     void updateActivationState(btScalar) override {}
 
     Robot &robot_;
+    const Ground &ground_;
     Solver solver_;
 };
 
 class Scene {
    public:
-    // The robot stands at the origin, facing +y, at rest, its arm at its home angles.
-    Scene(const RobotModel &model, const settings &configuration);
+    // The robot stands on `ground` at the origin, facing +y, at rest, its arm at its home angles; what fails at time 0
+    // has failed. `ground` must outlive the scene.
+    Scene(const RobotModel &model, const settings &configuration, const Ground &ground,
+          const std::vector<Failure> &failures);
 
+    void fail(const Failure &failure);
     void set_gravity(const Eigen::Vector3d &gravity);
     void step();
 
@@ -51,14 +57,18 @@ class Scene {
     std::vector<Drive> drives;
 
    private:
+    void place();
     void settle();
+    void hold_in_place();
+    bool rests() const;
 
     btDefaultCollisionConfiguration configuration_;
     btCollisionDispatcher dispatcher_;
     btDbvtBroadphase broadphase_;
     btMultiBodyConstraintSolver unused_solver_;  // Bullet insists on one
     btStaticPlaneShape ground_shape_;
-    btCollisionObject ground_;
+    btCollisionObject plane_;
+    const Ground &ground_;
     Pipeline pipeline_;
     double time_step_;
 };

@@ -1,5 +1,6 @@
 #include "world.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene.h"
@@ -9,15 +10,18 @@ namespace limphome {
 World::World(const RobotModel &model, const settings &configuration)
     : model_(model),
       settings_(configuration),
+      ground_(configuration),
+      failures_(planned_failures(configuration, model)),
       steps_per_period_(
           static_cast<int>(std::lround(configuration.episode.decision_period_s / configuration.simulator.time_step_s))),
-      scene_(std::make_unique<Scene>(model_, settings_)) {}
+      scene_(std::make_unique<Scene>(model_, settings_, ground_, failures_)) {}
 
 World::~World() = default;
 
 void World::reset() {
-    scene_ = std::make_unique<Scene>(model_, settings_);
+    scene_ = std::make_unique<Scene>(model_, settings_, ground_, failures_);
     steps_ = 0;
+    diverged_ = false;
 }
 
 void World::command(const double velocity[max_actuators]) {
@@ -32,28 +36,46 @@ void World::advance() {
     }
 }
 
+// What fails from the start has failed when the scene was made.
+void World::fail_when_due() {
+    for (const Failure &failure : failures_) {
+        if (failure.time > 0 && steps_ == std::max(1L, std::lround(failure.time / time_step()))) {
+            scene_->fail(failure);
+        }
+    }
+}
+
 void World::step() {
+    if (diverged_) {
+        return;
+    }
+    fail_when_due();
     scene_->step();
     steps_++;
     for (const Drive &drive : scene_->drives) {
         saturated_ += drive.saturated() ? 1 : 0;
     }
+    diverged_ = !plausible();
 }
 
 double World::time() const {
     return static_cast<double>(steps_) * time_step();
 }
 
-bool World::finite() const {
+// False for what is infinite, not a number, or absurd, which will soon be one or the other.
+bool World::plausible() const {
+    constexpr double fastest = 1e3;   // [m/s, rad/s]
+    constexpr double farthest = 1e6;  // [m]
     const btMultiBody &multibody = robot().multibody();
-    double sum = multibody.getBasePos().length2() + multibody.getWorldToBaseRot().length2();
+    double speed = 0;
     for (int dof = 0; dof < 6 + multibody.getNumDofs(); dof++) {
-        sum += std::abs(multibody.getVelocityVector()[dof]);
+        speed += std::abs(multibody.getVelocityVector()[dof]);
     }
+    double angles = multibody.getWorldToBaseRot().length2();
     for (int joint = 0; joint < multibody.getNumLinks(); joint++) {
-        sum += std::abs(multibody.getJointPos(joint));
+        angles += std::abs(multibody.getJointPos(joint));
     }
-    return std::isfinite(sum);
+    return speed < fastest && multibody.getBasePos().length() < farthest && std::isfinite(angles);
 }
 
 void World::set_gravity(const Eigen::Vector3d &gravity) {

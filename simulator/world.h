@@ -1,4 +1,4 @@
-// The simulated world: a robot on level ground, obeying commands.
+// The simulated world: a robot on the ground, obeying commands.
 #pragma once
 
 #include <settings.h>
@@ -9,6 +9,8 @@
 
 #include "contact.h"
 #include "drive.h"
+#include "failure.h"
+#include "ground.h"
 #include "robot.h"
 
 namespace limphome {
@@ -17,7 +19,8 @@ class Scene;
 
 class World {
    public:
-    // The robot stands at the origin, facing +y, at rest, its arm at its home angles.
+    // The robot stands at the origin, facing +y, at rest, its arm at its home angles. Throws std::runtime_error if what
+    // is to fail is not part of the robot.
     World(const RobotModel &model, const settings &configuration);
     ~World();
 
@@ -33,7 +36,7 @@ class World {
 
     int num_actuators() const { return static_cast<int>(model_.actuators.size()); }
     double time() const;                              // since construction or reset [s]
-    bool finite() const;                              // false once any state is infinite or not a number
+    bool diverged() const { return diverged_; }       // no step is done any more, until the next reset
     int64_t saturated() const { return saturated_; }  // drives at their torque limit so far, per time step and actuator
 
     // Gravity that is not vertical stands for a slope [m/s^2].
@@ -43,16 +46,23 @@ class World {
     Robot &robot();
     const Robot &robot() const;
     const std::vector<Drive> &drives() const;
+    const Ground &ground() const { return ground_; }
     // Of the last time step; their impulses divided by its length are forces.
     const std::vector<Contact> &contacts() const;
 
    private:
+    void fail_when_due();
+    bool plausible() const;
+
     RobotModel model_;
     settings settings_;
+    Ground ground_;
+    std::vector<Failure> failures_;
     int steps_per_period_;
     std::unique_ptr<Scene> scene_;
     int64_t steps_ = 0;      // since construction or reset
     int64_t saturated_ = 0;  // over all sessions
+    bool diverged_ = false;
 };
 
 }  // namespace limphome

@@ -30,6 +30,22 @@ struct key {
 #define CHOICE_KEY(s, n, words, standard, meaning) \
     { #s, #n, CHOICE, AT(s, n), 0, 0, standard, words, true, meaning }
 
+#define FAILURE_KEYS(s, standard)                                                                              \
+    CHOICE_KEY(s, actuator, "left_crawler right_crawler none joint_1 joint_2 joint_3 joint_4 joint_5 joint_6", \
+               standard, "what fails; arm joints are numbered from root to tip"),                              \
+        CHOICE_KEY(s, mode, "locked free weak slipping", SETTINGS_LOCKED,                                      \
+                   "how it fails; slipping: the drive works, but the belt has lost its friction"),             \
+        REAL_KEY(s, weak_factor, 0, 1, 0.3, "torque limit left to a weak drive, as a share of the rated one"), \
+        REAL_KEY(s, slip_factor, 0, 1, 0.05, "friction left to a slipping crawler, as a share"),               \
+        REAL_KEY(s, at_s, 0, 1e6, 0, "time since the reset at which it fails [s]")
+#define SENSOR_KEY(q, error, most, meaning) \
+    { "sensors", #q "_" #error, REAL, AT(sensors, q.error), 0, most, 0, NULL, true, meaning }
+#define SENSOR_KEYS(q, unit, most)                                                                            \
+    SENSOR_KEY(q, noise, most, "standard deviation of the noise " unit),                                      \
+        SENSOR_KEY(q, bias, most, "largest constant error " unit "; each value draws its own at each reset"), \
+        SENSOR_KEY(q, quantum, most, "readings are rounded to multiples of it " unit "; 0: not"),             \
+        SENSOR_KEY(q, delay_s, 5, "age of what is read [s]; a whole number of time steps")
+
 static const struct key keys[] = {
     WHOLE_KEY(learning, seed, 0, 2147483647, 1, "seed of every random number"),
     {"learning", "episodes", WHOLE, AT(learning, episodes), 1, 1000000, 2500, NULL, false, "episodes to train for"},
@@ -69,9 +85,8 @@ static const struct key keys[] = {
     WHOLE_KEY(episode, reset_every, 1, 1000000, 50,
               "episodes between returns to the initial pose, where a checkpoint is taken"),
 
-    CHOICE_KEY(failure, actuator, "left_crawler right_crawler none", SETTINGS_FAILED_LEFT, "what has failed"),
-    CHOICE_KEY(failure, mode, "locked free weak", SETTINGS_LOCKED, "how it has failed"),
-    REAL_KEY(failure, weak_factor, 0, 1, 0.3, "torque limit left to a weak crawler, as a share of the rated one"),
+    FAILURE_KEYS(failure, SETTINGS_FAILED_LEFT),
+    FAILURE_KEYS(second_failure, SETTINGS_FAILED_NONE),
 
     REAL_KEY(simulator, time_step_s, 1e-4, 0.02, 0.005, "time step [s]"),
     WHOLE_KEY(simulator, solver_iterations, 1, 1000, 20, "iterations of the contact solver per time step"),
@@ -79,6 +94,28 @@ static const struct key keys[] = {
      "lockstep: wait for each command; real_time: do not wait"},
     REAL_KEY(simulator, friction_crawler, 0, 2, 0.7, "Coulomb friction of crawlers on the ground"),
     REAL_KEY(simulator, friction_arm, 0, 2, 0.7, "Coulomb friction of arm and body on the ground"),
+
+    WHOLE_KEY(ground, seed, 0, 2147483647, 1, "seed of rough ground and patches: the same seed, the same ground"),
+    REAL_KEY(ground, incline_along_rad, -1, 1, 0, "uphill ahead of the start [rad]"),
+    REAL_KEY(ground, incline_across_rad, -1, 1, 0, "uphill to the right of the start [rad]"),
+    REAL_KEY(ground, rough_amplitude_m, 0, 1, 0, "rough ground: most above or below the mean [m]; 0: smooth"),
+    REAL_KEY(ground, rough_wavelength_m, 0.4, 100, 1, "rough ground: length of the shortest bumps [m]"),
+    REAL_KEY(ground, step_height_m, 0, 2, 0, "steps up and down, across the way: height [m]; 0: none"),
+    REAL_KEY(ground, step_spacing_m, 0.5, 100, 3, "steps: from one to the next [m]; the robot starts midway"),
+    REAL_KEY(ground, patch_share, 0, 1, 0, "share of the ground that is loose; 0: none"),
+    REAL_KEY(ground, patch_size_m, 0.1, 100, 0.5, "loose ground: side of a patch [m]"),
+    REAL_KEY(ground, patch_friction, 0, 1, 0.3, "loose ground: friction, as a share of that elsewhere"),
+
+    SENSOR_KEYS(attitude, "of roll, pitch and heading [rad]", 1),
+    SENSOR_KEYS(position, "of each coordinate [m]", 10),
+    SENSOR_KEYS(joint, "of arm joints [rad]", 1),
+    SENSOR_KEYS(torque, "of all drives [N m]", 10000),
+
+    REAL_KEY(randomisation, friction, 0, 0.9, 0, "drawn at each reset: friction is within this share of its setting"),
+    REAL_KEY(randomisation, mass, 0, 0.9, 0,
+             "drawn at each reset: each body's mass is within this share of the URDF's"),
+    REAL_KEY(randomisation, torque, 0, 0.9, 0,
+             "drawn at each reset: each drive's torque limit is within this share of the URDF's"),
 
     REAL_KEY(drive, proportional, 0, 1000, 60, "PID velocity drives: proportional gain [1/s]"),
     REAL_KEY(drive, integral, 0, 100000, 100, "PID velocity drives: integral gain [1/s^2]"),
@@ -309,15 +346,42 @@ int settings_set(settings *s, const char *assignment, char error[SETTINGS_ERROR_
     return set_key(s, place, section, name, equals + 1, error);
 }
 
-int settings_check(const settings *s, char error[SETTINGS_ERROR_LENGTH]) {
-    const double steps = s->episode.decision_period_s / s->simulator.time_step_s;
-    if (fabs(steps - round(steps)) > 1e-6 * steps || round(steps) < 1) {
-        snprintf(error, SETTINGS_ERROR_LENGTH,
-                 "[episode] decision_period_s = %.10g: must be a whole number of [simulator] time_step_s = %.10g",
-                 s->episode.decision_period_s, s->simulator.time_step_s);
-        return -1;
+/* Whether `time` of that key is a whole number of time steps; if not, says so. */
+static bool whole_steps(const settings *s, const char *key, double time, char *error) {
+    const double steps = time / s->simulator.time_step_s;
+    if (fabs(steps - round(steps)) <= 1e-6 * steps) {
+        return true;
     }
-    return 0;
+    snprintf(error, SETTINGS_ERROR_LENGTH, "%s = %.10g: must be a whole number of [simulator] time_step_s = %.10g", key,
+             time, s->simulator.time_step_s);
+    return false;
+}
+
+static bool possible_failures(const settings *s, char *error) {
+    const settings_failure *first = &s->failure, *second = &s->second_failure;
+    if (first->actuator == second->actuator && first->actuator != SETTINGS_FAILED_NONE) {
+        snprintf(error, SETTINGS_ERROR_LENGTH, "[second_failure] actuator: is that of [failure]; one fails once");
+        return false;
+    }
+    for (int i = 0; i < 2; i++) {
+        const settings_failure *failure = i == 0 ? first : second;
+        if (failure->actuator >= SETTINGS_FAILED_JOINT && failure->mode == SETTINGS_SLIPPING) {
+            snprintf(error, SETTINGS_ERROR_LENGTH, "[%s] mode = slipping: is for crawlers only",
+                     i == 0 ? "failure" : "second_failure");
+            return false;
+        }
+    }
+    return true;
+}
+
+int settings_check(const settings *s, char error[SETTINGS_ERROR_LENGTH]) {
+    const bool good = whole_steps(s, "[episode] decision_period_s", s->episode.decision_period_s, error) &&
+                      whole_steps(s, "[sensors] attitude_delay_s", s->sensors.attitude.delay_s, error) &&
+                      whole_steps(s, "[sensors] position_delay_s", s->sensors.position.delay_s, error) &&
+                      whole_steps(s, "[sensors] joint_delay_s", s->sensors.joint.delay_s, error) &&
+                      whole_steps(s, "[sensors] torque_delay_s", s->sensors.torque.delay_s, error) &&
+                      possible_failures(s, error);
+    return good ? 0 : -1;
 }
 
 static void print_value(const settings *s, const struct key *key, char *text, size_t size) {

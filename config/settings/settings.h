@@ -17,9 +17,32 @@ extern "C" {
 
 enum settings_gradient { SETTINGS_GRADIENT_PRINTED = 0, SETTINGS_GRADIENT_EXACT = 1 };
 enum settings_turn { SETTINGS_TURN_CHANGE = 0, SETTINGS_TURN_ERROR = 1 };
-enum settings_failed { SETTINGS_FAILED_LEFT = 0, SETTINGS_FAILED_RIGHT = 1, SETTINGS_FAILED_NONE = 2 };
-enum settings_failure_mode { SETTINGS_LOCKED = 0, SETTINGS_FREE = 1, SETTINGS_WEAK = 2 };
+/* From SETTINGS_FAILED_JOINT on: the arm joints from root to tip. */
+enum settings_failed {
+    SETTINGS_FAILED_LEFT = 0,
+    SETTINGS_FAILED_RIGHT = 1,
+    SETTINGS_FAILED_NONE = 2,
+    SETTINGS_FAILED_JOINT = 3
+};
+enum settings_failure_mode { SETTINGS_LOCKED = 0, SETTINGS_FREE = 1, SETTINGS_WEAK = 2, SETTINGS_SLIPPING = 3 };
 enum settings_pace { SETTINGS_LOCKSTEP = 0, SETTINGS_REAL_TIME = 1 };
+
+/* One actuator that fails. */
+typedef struct settings_failure {
+    int64_t actuator;   /* enum settings_failed */
+    int64_t mode;       /* enum settings_failure_mode */
+    double weak_factor; /* torque limit of a weak drive over its rated one, 0 to 1 */
+    double slip_factor; /* friction of a slipping crawler over that of a sound one, 0 to 1 */
+    double at_s;        /* time since the reset, 0 to 1e6 s */
+} settings_failure;
+
+/* Errors of one kind of sensor, in its unit; all 0: exact. */
+typedef struct settings_sensor {
+    double noise;   /* standard deviation */
+    double bias;    /* largest constant error; each value draws its own at each reset */
+    double quantum; /* readings are rounded to multiples of it */
+    double delay_s; /* age of what is read [s], 0 to 5 */
+} settings_sensor;
 
 typedef struct settings {
     struct {
@@ -62,11 +85,8 @@ typedef struct settings {
         double tumble_tilt_rad;   /* angle between body z and world z that counts as tumbled, 0.1 to 3 rad */
         int64_t reset_every;      /* episodes between returns to the initial pose, where a checkpoint is taken */
     } episode;
-    struct {
-        int64_t actuator;   /* enum settings_failed */
-        int64_t mode;       /* enum settings_failure_mode */
-        double weak_factor; /* torque limit of a weak crawler over its rated one, 0 to 1 */
-    } failure;
+    settings_failure failure;
+    settings_failure second_failure;
     struct {
         double time_step_s;        /* 1e-4 to 0.02 s */
         int64_t solver_iterations; /* 1 to 1000 */
@@ -74,6 +94,29 @@ typedef struct settings {
         double friction_crawler;   /* Coulomb coefficient, 0 to 2 */
         double friction_arm;       /* Coulomb coefficient, 0 to 2 */
     } simulator;
+    struct {
+        int64_t seed;              /* of rough ground and patches, 0 to 2^31 - 1 */
+        double incline_along_rad;  /* uphill along +y [rad], -1 to 1 */
+        double incline_across_rad; /* uphill along +x [rad], -1 to 1 */
+        double rough_amplitude_m;  /* largest height over or under the mean [m], 0 to 1; 0: smooth */
+        double rough_wavelength_m; /* of the shortest bumps [m], 0.4 to 100 */
+        double step_height_m;      /* of every other strip across [m], 0 to 2; 0: none */
+        double step_spacing_m;     /* length of a strip [m], 0.5 to 100 */
+        double patch_share;        /* of the ground that is loose, 0 to 1; 0: none */
+        double patch_size_m;       /* side of a patch [m], 0.1 to 100 */
+        double patch_friction;     /* on loose ground over that elsewhere, 0 to 1 */
+    } ground;
+    struct {
+        settings_sensor attitude; /* of roll, pitch and heading [rad] */
+        settings_sensor position; /* [m] */
+        settings_sensor joint;    /* angles of arm joints [rad] */
+        settings_sensor torque;   /* of all drives [N m] */
+    } sensors;
+    struct {
+        double friction; /* half-widths of what is drawn at each reset, as shares, 0 to 0.9 */
+        double mass;     /* of each body */
+        double torque;   /* limit of each drive */
+    } randomisation;
     struct {
         double proportional; /* velocity error to acceleration [1/s], 0 to 1000 */
         double integral;     /* integrated velocity error to acceleration [1/s^2], 0 to 100000 */
@@ -98,8 +141,9 @@ int settings_read(settings *s, const char *path, char error[SETTINGS_ERROR_LENGT
 /* Applies one `section.key=value` from the command line. 0 on success, else -1 and a text in `error`. */
 int settings_set(settings *s, const char *assignment, char error[SETTINGS_ERROR_LENGTH]);
 
-/* Checks what spans several keys, once all are known: the decision period must be a whole number of time steps.
- * 0 on success, else -1 and a text in `error`. */
+/* Checks what spans several keys, once all are known: the decision period and the delays must be whole numbers of time
+ * steps; the two failures must be of different actuators, and joints do not slip. 0 on success, else -1 and a text in
+ * `error`. */
 int settings_check(const settings *s, char error[SETTINGS_ERROR_LENGTH]);
 
 /* Writes every key with its value as an INI file that settings_read accepts and that gives the same settings. */

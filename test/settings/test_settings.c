@@ -69,13 +69,14 @@ START_TEST(reads_comments_spaces_and_choices) {
     char error[SETTINGS_ERROR_LENGTH] = "";
     ck_assert_msg(read_text(&s,
                             "; a comment\n[learning]\n  \nseed=7\nlearning_rate = 1e-2 ; inline\n\n[failure]\n"
-                            "actuator = right_crawler\nmode = free",
+                            "actuator = right_crawler\nmode = free\n[second_failure]\nactuator = joint_3",
                             error) == 0,
                   "%s", error);
     ck_assert_int_eq(s.learning.seed, 7);
     ck_assert_double_eq(s.learning.learning_rate, 0.01);
     ck_assert_int_eq(s.failure.actuator, SETTINGS_FAILED_RIGHT);
     ck_assert_int_eq(s.failure.mode, SETTINGS_FREE);
+    ck_assert_int_eq(s.second_failure.actuator, SETTINGS_FAILED_JOINT + 2);
 }
 END_TEST
 
@@ -94,7 +95,7 @@ static const struct {
     {"[learning]\nlearn_rate = 0.1\n", {":2:", "learn_rate", "unknown key", "keys of [learning]:", "learning_rate"}},
     {"[lerning]\nseed = 1\n", {":2:", "[lerning]", "sections:", "learning"}},
     {"seed = 1\n", {":1:", "seed", "sections:"}},
-    {"[failure]\nmode = broken\n", {":2:", "mode = broken", "one of: locked free weak"}},
+    {"[failure]\nmode = broken\n", {":2:", "mode = broken", "one of: locked free weak slipping"}},
     {"[failure]\nmode = lock\n", {":2:", "mode = lock"}},
     {"[learning]\nseed = 1\nepisodes = 3\nseed = 2\n", {":4:", "seed", "already set at line 2"}},
     {"[learning]\nwhat is this\n", {":2:", "key = value"}},
@@ -150,6 +151,37 @@ START_TEST(check_wants_whole_steps_per_decision) {
     s.simulator.time_step_s = 0.02;
     s.episode.decision_period_s = 0.01;
     ck_assert_int_eq(settings_check(&s, error), -1);
+}
+END_TEST
+
+START_TEST(check_wants_whole_steps_of_delay) {
+    settings s = settings_default();
+    char error[SETTINGS_ERROR_LENGTH] = "";
+    s.sensors.joint.delay_s = 0.1;
+    ck_assert_int_eq(settings_check(&s, error), 0);
+    s.sensors.joint.delay_s = 0.1001;
+    ck_assert_int_eq(settings_check(&s, error), -1);
+    ck_assert_ptr_nonnull(strstr(error, "[sensors] joint_delay_s"));
+}
+END_TEST
+
+START_TEST(check_wants_failures_that_are_possible) {
+    settings s = settings_default();
+    char error[SETTINGS_ERROR_LENGTH] = "";
+    s.second_failure.actuator = SETTINGS_FAILED_RIGHT;
+    ck_assert_int_eq(settings_check(&s, error), 0);
+    s.second_failure.actuator = s.failure.actuator;
+    ck_assert_int_eq(settings_check(&s, error), -1);
+    ck_assert_ptr_nonnull(strstr(error, "[second_failure] actuator"));
+    s = settings_default();
+    s.failure.mode = SETTINGS_SLIPPING;
+    ck_assert_int_eq(settings_check(&s, error), 0);
+    s.failure.actuator = SETTINGS_FAILED_JOINT;
+    ck_assert_int_eq(settings_check(&s, error), -1);
+    ck_assert_ptr_nonnull(strstr(error, "slipping"));
+    s.failure.actuator = s.second_failure.actuator = SETTINGS_FAILED_NONE;
+    s.failure.mode = SETTINGS_LOCKED;
+    ck_assert_int_eq(settings_check(&s, error), 0);
 }
 END_TEST
 
@@ -211,6 +243,8 @@ int main(void) {
     tcase_add_test(all, refuses_a_missing_file);
     tcase_add_test(all, set_takes_one_assignment);
     tcase_add_test(all, check_wants_whole_steps_per_decision);
+    tcase_add_test(all, check_wants_whole_steps_of_delay);
+    tcase_add_test(all, check_wants_failures_that_are_possible);
     tcase_add_test(all, what_is_written_reads_back_the_same);
     tcase_add_test(all, hash_tells_what_decides);
     tcase_add_test(all, command_line_takes_the_file_first_then_assignments);

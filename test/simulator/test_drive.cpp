@@ -134,7 +134,7 @@ TEST(Drive, WeakCrawlerHasItsShareOfTorque) {
 
 TEST(Drive, EffortIsTheMeanOfTwentyMilliseconds) {
     const Actuator actuator{"a", -1, 1, 100, 10, 0};
-    Drive drive(actuator, {60, 100, 0}, 0.005, DriveCondition::sound, 1);
+    Drive drive(actuator, {60, 100, 0}, 0.005);
     for (const double torque : {1000.0, 10.0, 20.0, 30.0, 40.0}) {
         JointConstraint constraint = drive.begin_step(0, 0);
         constraint.impulse = torque * 0.005;

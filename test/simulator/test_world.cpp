@@ -156,13 +156,27 @@ TEST(World, IsTheSameInAnotherProcess) {
     EXPECT_EQ(output_of("PADDING=xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx " TRAJECTORY_PROGRAM), here);
 }
 
-TEST(World, TellsWhenStatesAreNotFinite) {
+// A world that diverges stops at once, and a reset makes it sound again.
+TEST(World, TellsWhenItDiverges) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
     World world(paper_robot(), left_locked());
-    EXPECT_TRUE(world.finite());
-    world.robot().multibody().setJointVel(boom, std::numeric_limits<double>::quiet_NaN());
-    EXPECT_FALSE(world.finite());
-    world.reset();
-    EXPECT_TRUE(world.finite());
+    const auto expect_divergence = [&world] {
+        EXPECT_FALSE(world.diverged());
+        world.advance();
+        EXPECT_TRUE(world.diverged());
+        EXPECT_LT(world.time(), 0.5);
+        world.reset();
+    };
+    world.robot().multibody().setJointVel(boom, nan);
+    expect_divergence();
+    world.robot().multibody().setJointPos(swing, nan);
+    expect_divergence();
+    world.robot().multibody().setBaseVel(btVector3(0, 0, 1e12));
+    expect_divergence();
+    world.set_gravity({0, 0, -1e300});
+    expect_divergence();
+    World fresh(paper_robot(), left_locked());
+    EXPECT_EQ(trajectory(world), trajectory(fresh));
 }
 
 // The motion of pressing and dragging converges in first order; the default step is within millimetres of its limit.
