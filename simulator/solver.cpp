@@ -21,20 +21,34 @@ void Solver::solve(btMultiBody &multibody, std::vector<JointConstraint> &joints,
     compliance_ = 1 / (time_step * (ground_.stiffness * time_step + ground_.damping));
     mass_ = mass_matrix(multibody);
     inverse_ = rigid_inverse(mass_);
+    bool all_held = true;
     for (std::size_t j = 0; j < joints.size(); j++) {
         if (!joints[j].held) {
             release(static_cast<int>(j));
+            all_held = false;
         }
     }
-    do {
+    if (all_held) {  // the usual case
         hold_joints(joints);
-        prepare_contacts(contacts, time_step);
-        apply_known_impulses(joints, contacts);
-        iterate(joints, contacts);
-    } while (release_overloaded(joints, contacts));
+        try_to_solve<base_dofs>(joints, contacts, time_step);
+        all_held = !release_overloaded(joints, contacts);
+    }
+    if (!all_held) {
+        do {
+            hold_joints(joints);
+            try_to_solve<max_dofs>(joints, contacts, time_step);
+        } while (release_overloaded(joints, contacts));
+    }
 
     const GeneralVector change = velocity_ - free_;
     multibody.applyDeltaVeeMultiDof(change.data(), 1);
+}
+
+template <int dofs>
+void Solver::try_to_solve(std::vector<JointConstraint> &joints, std::vector<Contact> &contacts, double time_step) {
+    prepare_contacts<dofs>(contacts, time_step);
+    apply_known_impulses<dofs>(joints, contacts);
+    iterate<dofs>(joints, contacts);
 }
 
 // Lets a joint give way that inverse_ has taken for rigid: inversion by bordering, which adds one rank.
@@ -57,25 +71,31 @@ void Solver::hold_joints(const std::vector<JointConstraint> &joints) {
     velocity_ += inverse_.lazyProduct(missing);
 }
 
+template <int dofs>
 void Solver::prepare_contacts(const std::vector<Contact> &contacts, double time_step) {
     const double share = ground_.stiffness / (ground_.stiffness * time_step + ground_.damping);
     rows_.resize(contacts.size());
     for (std::size_t i = 0; i < contacts.size(); i++) {
         const Contact &contact = contacts[i];
+        const auto jacobian = contact.jacobian.topRows<dofs>();
         ContactRow &row = rows_[i];
-        row.response = inverse_.lazyProduct(contact.jacobian);
-        row.effect = contact.jacobian.transpose().lazyProduct(row.response);
+        row.response.topRows<dofs>() = inverse_.topLeftCorner<dofs, dofs>().lazyProduct(jacobian);
+        row.effect = jacobian.transpose().lazyProduct(row.response.topRows<dofs>());
+        row.steady =
+            contact.jacobian.bottomRows<max_dofs - dofs>().transpose().lazyProduct(velocity_.tail<max_dofs - dofs>());
         row.push = contact.depth > 0 ? share * contact.depth : contact.depth / time_step;
+        row.normal_step = 1 / (row.effect(0, 0) + compliance_);
         const Eigen::Matrix2d tangential = row.effect.bottomRightCorner<2, 2>();
         row.sticking = tangential.inverse();
-        const double mean = 0.5 * tangential.trace();
-        row.slip_step = 1 / (mean + std::hypot(0.5 * (tangential(0, 0) - tangential(1, 1)), tangential(0, 1)));
+        const double mean = 0.5 * tangential.trace(), half = 0.5 * (tangential(0, 0) - tangential(1, 1));
+        row.slip_step = 1 / (mean + std::sqrt(half * half + tangential(0, 1) * tangential(0, 1)));
     }
 }
 
+template <int dofs>
 void Solver::apply_known_impulses(const std::vector<JointConstraint> &joints, const std::vector<Contact> &contacts) {
     for (std::size_t i = 0; i < contacts.size(); i++) {
-        velocity_ += rows_[i].response * contacts[i].impulse;
+        velocity_.head<dofs>() += rows_[i].response.topRows<dofs>().lazyProduct(contacts[i].impulse);
     }
     for (std::size_t j = 0; j < joints.size(); j++) {
         if (!joints[j].held) {
@@ -84,6 +104,7 @@ void Solver::apply_known_impulses(const std::vector<JointConstraint> &joints, co
     }
 }
 
+template <int dofs>
 void Solver::iterate(std::vector<JointConstraint> &joints, std::vector<Contact> &contacts) {
     for (int iteration = 0; iteration < iterations_; iteration++) {
         double largest = 0;
@@ -93,7 +114,7 @@ void Solver::iterate(std::vector<JointConstraint> &joints, std::vector<Contact> 
             }
         }
         for (std::size_t i = 0; i < contacts.size(); i++) {
-            largest = std::max(largest, relax(contacts[i], rows_[i]));
+            largest = std::max(largest, relax<dofs>(contacts[i], rows_[i]));
         }
         if (largest < velocity_tolerance) {
             return;
@@ -118,18 +139,20 @@ double Solver::relax(JointConstraint &joint, int dof) {
 }
 
 // Returns the largest change of the contact's relative velocity.
+template <int dofs>
 double Solver::relax(Contact &contact, const ContactRow &row) {
-    Eigen::Vector3d relative = contact.jacobian.transpose() * velocity_;
+    Eigen::Vector3d relative = row.steady;
+    relative += contact.jacobian.topRows<dofs>().transpose().lazyProduct(velocity_.head<dofs>());
     Eigen::Vector3d change;
-    const double normal = contact.impulse[0] + (row.push - relative[0] - compliance_ * contact.impulse[0]) /
-                                                   (row.effect(0, 0) + compliance_);
-    change[0] = std::max(normal, 0.0) - contact.impulse[0];
+    const double normal = std::max(
+        contact.impulse[0] + row.normal_step * (row.push - relative[0] - compliance_ * contact.impulse[0]), 0.0);
+    change[0] = normal - contact.impulse[0];
     const Eigen::Vector2d slip = relative.tail<2>() + row.effect.block<2, 1>(1, 0) * change[0];
 
     // Stick if friction is able to hold. Else project onto its limit: with the same step for all directions this is at
     // rest only where friction opposes the slip, which clamping each direction by its own effective mass is not.
     const Eigen::Vector2d friction = contact.impulse.tail<2>();
-    const double limit = contact.friction * std::max(normal, 0.0);
+    const double limit = contact.friction * normal;
     Eigen::Vector2d wanted = friction - row.sticking * slip;
     if (wanted.squaredNorm() > limit * limit) {
         wanted = friction - row.slip_step * slip;
@@ -139,7 +162,7 @@ double Solver::relax(Contact &contact, const ContactRow &row) {
         }
     }
     change.tail<2>() = wanted - friction;
-    velocity_ += row.response * change;
+    velocity_.head<dofs>() += row.response.topRows<dofs>().lazyProduct(change);
     contact.impulse += change;
     return row.effect.diagonal().cwiseProduct(change).cwiseAbs().maxCoeff();
 }
@@ -150,7 +173,7 @@ bool Solver::release_overloaded(std::vector<JointConstraint> &joints, const std:
     constexpr double infinity = std::numeric_limits<double>::infinity();
     GeneralVector impulse = GeneralVector::Zero();
     for (const Contact &contact : contacts) {
-        impulse += contact.jacobian * contact.impulse;
+        impulse += contact.jacobian.lazyProduct(contact.impulse);
     }
     for (std::size_t j = 0; j < joints.size(); j++) {
         if (!joints[j].held) {

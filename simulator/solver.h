@@ -27,19 +27,30 @@ class Solver {
     struct ContactRow {
         Eigen::Matrix<double, max_dofs, 3> response;  // velocities per unit impulse along each axis
         Eigen::Matrix3d effect;                       // relative velocity per unit impulse
+        Eigen::Vector3d steady;                       // relative velocity from joints that keep their rates [m/s]
         Eigen::Matrix2d sticking;                     // inverse of its tangential block
         double push;                                  // [m/s]
+        double normal_step;                           // impulse per lack of velocity along the normal [kg]
         double slip_step;                             // impulse per slip velocity in the projection [kg]
     };
 
     void hold_joints(const std::vector<JointConstraint> &joints);
     void release(int joint);
+    // Only the first `dofs` velocities change: those of the base, base_dofs, while all joints are held; else max_dofs.
+    template <int dofs>
+    void try_to_solve(std::vector<JointConstraint> &joints, std::vector<Contact> &contacts, double time_step);
+    template <int dofs>
     void prepare_contacts(const std::vector<Contact> &contacts, double time_step);
+    template <int dofs>
     void apply_known_impulses(const std::vector<JointConstraint> &joints, const std::vector<Contact> &contacts);
+    template <int dofs>
     void iterate(std::vector<JointConstraint> &joints, std::vector<Contact> &contacts);
     double relax(JointConstraint &joint, int dof);
+    template <int dofs>
     double relax(Contact &contact, const ContactRow &row);
     bool release_overloaded(std::vector<JointConstraint> &joints, const std::vector<Contact> &contacts);
+
+    static constexpr int base_dofs = 6;
 
     int iterations_;
     GroundStiffness ground_;
