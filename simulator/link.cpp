@@ -157,7 +157,10 @@ void Link::receive_reset(const lcm::ReceiveBuffer *buffer, const std::string &) 
         counts_.rejected_session++;
         return;
     }
-    reset_requested_ = accept_sender(request.sender) || reset_requested_;
+    if (accept_sender(request.sender)) {
+        reset_requested_ = true;
+        requested_episode_ = request.episode;
+    }
 }
 
 std::optional<velocity_command_t> Link::take_command() {

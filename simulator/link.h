@@ -42,6 +42,8 @@ class Link {
     std::optional<velocity_command_t> take_command();
     // Whether a reset of this session was asked for since the session began.
     bool reset_requested() const { return reset_requested_; }
+    // The episode that the newest request was for.
+    int32_t requested_episode() const { return requested_episode_; }
 
     // Of the newest state sent.
     int64_t session() const { return state_.session; }
@@ -69,6 +71,7 @@ class Link {
     std::optional<velocity_command_t> command_;
     int64_t answered_ = -1;  // newest seq whose command was handed out
     bool reset_requested_ = false;
+    int32_t requested_episode_ = 0;
     status_t counts_{};
     double wait_time_ = 0;
 };

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sensors.h"
 #include "truth.h"
 
 namespace limphome {
@@ -12,6 +11,7 @@ namespace limphome {
 namespace {
 
 constexpr double kRampSeconds = 0.5;     // from the last obeyed speed to rest
+constexpr int kMostFaults = 10;          // in a row
 constexpr double kRealTimeSlice = 0.01;  // the clock is followed this finely [s]
 
 }  // namespace
@@ -24,22 +24,44 @@ bool Plant::run(const volatile std::sig_atomic_t *stop) {
     begin();
     while (*stop == 0) {
         if (link_.reset_requested()) {
-            world_.reset();
-            link_.begin_session();
-            begin();
+            faults_in_a_row_ = session_decisions_ > 0 ? 0 : faults_in_a_row_;
+            episode_ = link_.requested_episode();
+            restart();
         } else if (lockstep ? advance_lockstep() : advance_real_time()) {
             decisions_++;
+            session_decisions_++;
             simulated_ += settings_.episode.decision_period_s;
-            publish();
-        }
-        if (world_.diverged()) {
-            std::fprintf(stderr, "the simulation diverged at %.3f s\n", world_.time());
-            report(status_t::FAULT);
-            return false;
+            if (!world_.diverged()) {
+                publish();
+            } else if (!recover()) {
+                return false;
+            }
         }
         report_each_second();
     }
     report(status_t::FINISHED);
+    return true;
+}
+
+void Plant::restart() {
+    world_.reset(episode_);
+    link_.begin_session();
+    session_decisions_ = 0;
+    begin();
+}
+
+// The state that diverged is not published. The report tells the controller that the session is over.
+bool Plant::recover() {
+    std::fprintf(stderr, "the simulation diverged at %.3f s; the robot is put back to its initial pose\n",
+                 world_.time());
+    faults_++;
+    faults_in_a_row_++;
+    report(status_t::FAULT);
+    if (faults_in_a_row_ >= kMostFaults) {
+        std::fprintf(stderr, "it did so in %d sessions in a row; giving up\n", faults_in_a_row_);
+        return false;
+    }
+    restart();
     return true;
 }
 
@@ -52,7 +74,7 @@ void Plant::begin() {
 
 void Plant::publish() {
     robot_state_t state{};
-    read_sensors(world_, state);
+    world_.sense(state);
     state.utime = std::llround(world_.time() * 1e6);
     link_.send_state(state);
     ground_truth_t truth{};
@@ -123,6 +145,7 @@ void Plant::report(int8_t condition) {
     status.decisions = decisions_;
     status.late = late_;
     status.saturated = world_.saturated();
+    status.faults = faults_;
     link_.send_status(status);
 }
 

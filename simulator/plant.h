@@ -13,11 +13,14 @@ class Plant {
    public:
     Plant(World &world, Link &link, const settings &s);
 
-    // Runs until *stop is not 0. False if the world diverged, which has been reported.
+    // Runs until *stop is not 0. A world that diverges is reported and begun anew in a new session. False if that
+    // happens again and again.
     bool run(const volatile std::sig_atomic_t *stop);
 
    private:
-    void begin();              // new session from the initial pose
+    void begin();              // publishes the initial pose
+    void restart();            // new session from the initial pose
+    bool recover();            // from a diverged world; false if there is no use
     void publish();            // state and truth
     bool advance_lockstep();   // waits for the command that answers the newest state, then one decision period
     bool advance_real_time();  // follows the clock to the end of the decision period, obeying commands as they come
@@ -35,7 +38,11 @@ class Plant {
     double report_due_ = 0;  // [s, monotonic]
     int64_t decisions_ = 0;
     int64_t late_ = 0;
-    double simulated_ = 0;  // in all sessions [s]
+    int32_t episode_ = 0;  // that began with the newest session
+    int64_t faults_ = 0;
+    int faults_in_a_row_ = 0;        // sessions that ended by a fault, but for those in which nothing was done
+    int64_t session_decisions_ = 0;  // in this session
+    double simulated_ = 0;           // in all sessions [s]
 };
 
 }  // namespace limphome

@@ -1,4 +1,4 @@
-// What the robot's own sensors tell.
+// What the robot's own sensors would tell if they were exact.
 #pragma once
 
 #include <limphome/robot_state_t.hpp>

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
+#include "randomisation.h"
 #include "scene.h"
+#include "sensors.h"
 
 namespace limphome {
 
@@ -14,14 +17,34 @@ World::World(const RobotModel &model, const settings &configuration)
       failures_(planned_failures(configuration, model)),
       steps_per_period_(
           static_cast<int>(std::lround(configuration.episode.decision_period_s / configuration.simulator.time_step_s))),
-      scene_(std::make_unique<Scene>(model_, settings_, ground_, failures_)) {}
+      sensor_errors_(configuration) {
+    reset();
+    if (diverged_) {
+        throw std::runtime_error("robot " + model.name + ": the simulation diverges before the robot moves");
+    }
+}
 
 World::~World() = default;
 
-void World::reset() {
-    scene_ = std::make_unique<Scene>(model_, settings_, ground_, failures_);
+std::unique_ptr<Scene> World::make_scene(int64_t episode) const {
+    RobotModel model = model_;
+    settings configuration = settings_;
+    randomise(model, configuration, episode);
+    return std::make_unique<Scene>(model, configuration, ground_, failures_);
+}
+
+void World::reset(int64_t episode) {
+    scene_ = make_scene(episode);
     steps_ = 0;
-    diverged_ = false;
+    diverged_ = !plausible();
+    robot_state_t exact{};
+    read_sensors(*this, exact);
+    sensor_errors_.begin(episode, exact);
+}
+
+void World::sense(robot_state_t &state) {
+    read_sensors(*this, state);
+    sensor_errors_.apply(state);
 }
 
 void World::command(const double velocity[max_actuators]) {
@@ -56,6 +79,11 @@ void World::step() {
         saturated_ += drive.saturated() ? 1 : 0;
     }
     diverged_ = !plausible();
+    if (sensor_errors_.delayed()) {
+        robot_state_t exact{};
+        read_sensors(*this, exact);
+        sensor_errors_.record(exact);
+    }
 }
 
 double World::time() const {

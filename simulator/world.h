@@ -12,6 +12,7 @@
 #include "failure.h"
 #include "ground.h"
 #include "robot.h"
+#include "sensor_errors.h"
 
 namespace limphome {
 
@@ -20,12 +21,13 @@ class Scene;
 class World {
    public:
     // The robot stands at the origin, facing +y, at rest, its arm at its home angles. Throws std::runtime_error if what
-    // is to fail is not part of the robot.
+    // is to fail is not part of the robot, or the robot cannot be simulated.
     World(const RobotModel &model, const settings &configuration);
     ~World();
 
-    // Back to the state after construction, bit by bit; gravity too.
-    void reset();
+    // Back to the state after construction, bit by bit; gravity too. What is drawn at each reset depends on `episode`,
+    // the one that begins.
+    void reset(int64_t episode = 0);
 
     // Wanted rates, Table 1: belt speed of the crawlers [m/s], then rates of the arm joints [rad/s].
     void command(const double velocity[max_actuators]);
@@ -38,6 +40,9 @@ class World {
     double time() const;                              // since construction or reset [s]
     bool diverged() const { return diverged_; }       // no step is done any more, until the next reset
     int64_t saturated() const { return saturated_; }  // drives at their torque limit so far, per time step and actuator
+
+    // Reads the sensors, with their errors; utime, session, seq and lockstep are left as they are.
+    void sense(robot_state_t &state);
 
     // Gravity that is not vertical stands for a slope [m/s^2].
     void set_gravity(const Eigen::Vector3d &gravity);
@@ -52,6 +57,7 @@ class World {
 
    private:
     void fail_when_due();
+    std::unique_ptr<Scene> make_scene(int64_t episode) const;
     bool plausible() const;
 
     RobotModel model_;
@@ -60,6 +66,7 @@ class World {
     std::vector<Failure> failures_;
     int steps_per_period_;
     std::unique_ptr<Scene> scene_;
+    SensorErrors sensor_errors_;
     int64_t steps_ = 0;      // since construction or reset
     int64_t saturated_ = 0;  // over all sessions
     bool diverged_ = false;

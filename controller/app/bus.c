@@ -64,10 +64,15 @@ static void receive_state(const lcm_recv_buf_t *buffer, const char *channel, voi
 
 /* The plant's status is kept in the log beside ours. */
 static void receive_status(const lcm_recv_buf_t *buffer, const char *channel, void *user) {
+    bus *b = user;
     limphome_status_t status;
     const int size = limphome_status_t_decode(buffer->data, 0, (int)buffer->data_size, &status);
     if (size == (int)buffer->data_size && status.process == LIMPHOME_STATUS_T_PLANT) {
-        record(user, channel, buffer->data, size);
+        record(b, channel, buffer->data, size);
+        if (status.condition == LIMPHOME_STATUS_T_FAULT) {
+            b->faulted = true;
+            b->fault_session = status.session;
+        }
     }
 }
 
@@ -131,6 +136,13 @@ bool bus_take(bus *b, limphome_robot_state_t *state) {
     return true;
 }
 
+bool bus_take_fault(bus *b, int64_t *session) {
+    const bool faulted = b->faulted;
+    b->faulted = false;
+    *session = b->fault_session;
+    return faulted;
+}
+
 /* Encodes a message of any of our types into `bytes` and names its size; then `send` puts it on the bus. */
 #define ENCODE(type, message, bytes) limphome_##type##_encode(bytes, 0, (int)sizeof bytes, message)
 
@@ -154,9 +166,9 @@ void bus_send_command(bus *b, const limphome_velocity_command_t *command, bool r
     send(b, "LIMPHOME_COMMAND", bytes, ENCODE(velocity_command_t, command, bytes), !repeats);
 }
 
-void bus_send_reset(bus *b, int64_t session, int64_t seq, bool repeats) {
+void bus_send_reset(bus *b, int64_t session, int64_t seq, int32_t episode, bool repeats) {
     const limphome_reset_request_t request = {
-        .utime = bus_now_us(), .session = session, .seq = seq, .sender = b->sender};
+        .utime = bus_now_us(), .session = session, .seq = seq, .sender = b->sender, .episode = episode};
     unsigned char bytes[LARGEST_MESSAGE];
     b->counts.resent += repeats;
     send(b, "LIMPHOME_RESET", bytes, ENCODE(reset_request_t, &request, bytes), !repeats);

@@ -24,6 +24,8 @@ typedef struct bus {
 
     bool fresh;                    /* `newest` has not been taken yet */
     limphome_robot_state_t newest; /* newest good state heard */
+    bool faulted;                  /* `fault_session` has not been taken yet */
+    int64_t fault_session;         /* newest session that the plant told to have ended by a fault */
     limphome_status_t counts;      /* the counters of LIMPHOME_STATUS that are counted here */
     double wait_time;              /* spent in bus_wait [s] */
 } bus;
@@ -41,13 +43,16 @@ bool bus_wait(bus *b, double timeout);
 /* Hands out the newest state heard since the last call; false if there is none. */
 bool bus_take(bus *b, limphome_robot_state_t *state);
 
+/* Hands out the session that the plant has told to have ended by a fault, once; false if there is none. */
+bool bus_take_fault(bus *b, int64_t *session);
+
 /* Adds a state that is acted upon to the log. */
 void bus_record_state(bus *b, const limphome_robot_state_t *state);
 
 /* Each publishes and records. A command or reset that `repeats` an earlier one is counted as resent and not recorded.
  */
 void bus_send_command(bus *b, const limphome_velocity_command_t *command, bool repeats);
-void bus_send_reset(bus *b, int64_t session, int64_t seq, bool repeats);
+void bus_send_reset(bus *b, int64_t session, int64_t seq, int32_t episode, bool repeats);
 void bus_send_decision(bus *b, const limphome_decision_t *decision);
 void bus_send_episode(bus *b, const limphome_episode_t *episode);
 void bus_send_policy(bus *b, const limphome_policy_t *policy);

@@ -94,7 +94,8 @@ static bool begin_learner(experiment *e, const limphome_robot_state_t *state) {
 }
 
 static void send_reset(experiment *e) {
-    bus_send_reset(&e->bus, e->session.session, e->session.seq, e->reset_sent);
+    const int32_t episode = e->learner_ready ? e->controller.episode.number : e->finished + 1;
+    bus_send_reset(&e->bus, e->session.session, e->session.seq, episode, e->reset_sent);
     e->reset_sent = true;
 }
 
@@ -212,6 +213,10 @@ bool experiment_run(experiment *e, const volatile sig_atomic_t *stop) {
         if (!bus_wait(&e->bus, e->settings.link.resend_s)) {
             fprintf(stderr, "the bus is broken\n");
             return false;
+        }
+        int64_t ended;
+        if (bus_take_fault(&e->bus, &ended)) {
+            session_over(&e->session, ended);
         }
         limphome_robot_state_t state;
         if (bus_take(&e->bus, &state)) {

@@ -8,20 +8,25 @@ void session_reset(session_tracker *tracker) {
     tracker->resetting = true;
 }
 
+void session_over(session_tracker *tracker, int64_t session) {
+    tracker->over = tracker->over || (tracker->known && session == tracker->session);
+}
+
 /* A session we have not heard of. It is the answer to our reset, or the plant was restarted. */
 static session_verdict judge_other(session_tracker *tracker, int64_t session, int64_t seq, bool lockstep, double now) {
     if (tracker->resetting && (seq == 0 || !lockstep)) {
         tracker->session = session;
         tracker->seq = seq;
         tracker->heard = now;
-        tracker->resetting = false;
+        tracker->resetting = tracker->over = false;
         return SESSION_NEW;
     }
-    if (now - tracker->heard < tracker->timeout) {
+    if (!tracker->over && now - tracker->heard < tracker->timeout) {
         return SESSION_OTHER;
     }
-    tracker->session = session; /* ours is silent: take up this one, from a reset on */
+    tracker->session = session; /* ours is over or silent: take up this one, from a reset on */
     tracker->heard = now;
+    tracker->over = false;
     tracker->resetting = true;
     tracker->restarted = true;
     return SESSION_RESET;

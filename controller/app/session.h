@@ -20,6 +20,7 @@ typedef struct session_tracker {
     double timeout; /* silence of our session after which another one is taken up [s] */
     bool known;     /* a plant has been heard */
     bool resetting; /* a reset of `session` has been asked for */
+    bool over;      /* `session` has ended, as the plant has told */
     bool restarted; /* the newest session began without our asking; cleared by the caller */
     int64_t session;
     int64_t seq;  /* newest answered */
@@ -34,5 +35,8 @@ session_verdict session_judge(session_tracker *tracker, int64_t session, int64_t
 
 /* The plant must go back to its initial pose: states of the present session are now answered by SESSION_RESET. */
 void session_reset(session_tracker *tracker);
+
+/* The plant has told that `session` ended without our asking: the next one is taken up without waiting for silence. */
+void session_over(session_tracker *tracker, int64_t session);
 
 #endif

@@ -83,7 +83,7 @@ def totals(parts):
 
 SHARES = ("simulator_share", "controller_share", "link_share")  # of wall time
 COUNTERS = ("received", "rejected_malformed", "rejected_non_finite", "rejected_session", "rejected_sender",
-            "duplicates", "resent", "late", "clamped", "saturated")
+            "duplicates", "resent", "late", "clamped", "saturated", "faults")
 
 
 def begin_manifest(folder, config):

@@ -78,6 +78,19 @@ START_TEST(a_restarted_plant_is_taken_up_from_a_reset) {
 }
 END_TEST
 
+START_TEST(a_session_that_is_over_is_not_waited_for) {
+    session_tracker t = begun();
+    session_over(&t, FIRST); /* of long ago */
+    ck_assert_int_eq(session_judge(&t, THIRD, 0, LOCKSTEP, 0.1), SESSION_OTHER);
+    session_over(&t, SECOND);
+    ck_assert_int_eq(session_judge(&t, SECOND, 0, LOCKSTEP, 0.2), SESSION_REPEATED); /* a late one */
+    ck_assert_int_eq(session_judge(&t, THIRD, 0, LOCKSTEP, 0.2), SESSION_RESET);
+    ck_assert(t.restarted);
+    ck_assert_int_eq(session_judge(&t, FIRST, 0, LOCKSTEP, 0.3), SESSION_NEW);
+    ck_assert_int_eq(session_judge(&t, THIRD, 0, LOCKSTEP, 0.4), SESSION_OTHER);
+}
+END_TEST
+
 /* A plant in lockstep behind a link that loses, doubles and reorders: every state is decided upon exactly once, in
  * order. */
 START_TEST(a_bad_link_costs_time_only) {
@@ -116,6 +129,7 @@ int main(void) {
     tcase_add_test(cases, reset_is_asked_for_until_the_session_changes);
     tcase_add_test(cases, another_session_is_dropped_while_ours_lives);
     tcase_add_test(cases, a_restarted_plant_is_taken_up_from_a_reset);
+    tcase_add_test(cases, a_session_that_is_over_is_not_waited_for);
     tcase_add_loop_test(cases, a_bad_link_costs_time_only, 0, 10);
     return run_suite("session", cases);
 }

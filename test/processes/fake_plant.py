@@ -3,7 +3,7 @@
 Starts COMMAND, a limphome-controller, and answers it in lockstep until it ends. FAULTS is JSON with the probabilities
 of what befalls a message: drop, duplicate, reorder (an earlier state comes again), garbage (a broken copy comes too);
 and `seed`. Prints JSON: the controller's exit code, how many states it answered, how often a command for one
-(session, seq) differed from an earlier one, how often each fault was done, and how much of the garbage the controller
+(session, seq) differed from an earlier one, the episodes that resets were for, how often each fault was done, and how much of the garbage the controller
 must have met: what went out before a state that it answered.
 
 The robot is a point that the right crawler pushes and the swing joint steers.
@@ -39,6 +39,7 @@ class FakePlant:
         self.answers = {}  # (session, seq) -> velocities of the first command
         self.differing = 0
         self.earlier = b""
+        self.begun = []  # episodes that resets were for
         self.heard = False  # the controller: garbage that nobody hears yet would not count
         self.garbage_before_state = self.garbage_met = 0
         self.begin()
@@ -114,7 +115,9 @@ class FakePlant:
 
     def _on_reset(self, _channel, data):
         self.heard = True
-        if reset_request_t.decode(data).session == self.session and not self.befalls("drop"):
+        request = reset_request_t.decode(data)
+        if request.session == self.session and not self.befalls("drop"):
+            self.begun.append(request.episode)
             self.begin()
 
     def serve(self, controller):
@@ -135,7 +138,7 @@ def main():
     finally:
         controller.kill()
     print(json.dumps({"exit_code": controller.wait(), "answered": len(plant.answers), "differing": plant.differing,
-                      "done": plant.done, "garbage_met": plant.garbage_met}))
+                      "done": plant.done, "begun": plant.begun, "garbage_met": plant.garbage_met}))
 
 
 if __name__ == "__main__":

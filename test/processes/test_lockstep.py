@@ -49,6 +49,7 @@ def test_faults_change_nothing_that_is_learned(tmp_path, clean, faults):
     assert all(report["done"][fault] > 10 for fault in faults), "the faults were not done"
     assert report["differing"] == 0
     assert report["answered"] == clean[0]["answered"]
+    assert report["begun"] == clean[0]["begun"] == [1, 4, 7, 10]
     assert folder.episodes.read_bytes() == clean[1].episodes.read_bytes()
     assert folder.policy.read_bytes() == clean[1].policy.read_bytes()
     decided = Counter((decision.session, decision.seq) for _, decision in recorded(folder.messages, DECISION))
