@@ -7,6 +7,8 @@
 #include "limphome/exponential.h"
 #include "limphome/lanes.h"
 
+#define CHUNK (4 * LH_LANES) /* values of q that are computed at a time */
+
 lh_error lh_boltzmann_temperature(int32_t episode, float floor, float *temperature) {
     if (episode < 1) {
         return LH_ERROR_EPISODE;
@@ -47,27 +49,33 @@ int32_t lh_boltzmann_greedy(const float *q, int32_t count) {
     return best;
 }
 
-/* likelihood[LH_LANES] = exp((q - q_max) / T), the numerators of (3) over exp(q_max / T), for the first of q[count];
+/* likelihood[CHUNK] = exp((q - q_max) / T), the numerators of (3) over exp(q_max / T), for the first of q[count];
  * 0 from q[count] on. Returns their sum. */
 static float likelihoods(const float *q, int32_t count, float temperature, float q_max, float *restrict likelihood) {
-    float rest[LH_LANES];
-    if (count < LH_LANES) {
-        for (int32_t lane = 0; lane < LH_LANES; ++lane) {
-            rest[lane] = lane < count ? q[lane] : -FLT_MAX;
+    float rest[CHUNK];
+    if (count < CHUNK) {
+        for (int32_t i = 0; i < CHUNK; ++i) {
+            rest[i] = i < count ? q[i] : -FLT_MAX;
         }
         q = rest;
     }
-    for (int32_t lane = 0; lane < LH_LANES; ++lane) {
-        likelihood[lane] = lh_exponential((q[lane] - q_max) / temperature);
+    for (int32_t i = 0; i < CHUNK; ++i) {
+        likelihood[i] = lh_exponential((q[i] - q_max) / temperature);
     }
-    return lh_sum_lanes(likelihood);
+    float sum[LH_LANES] = {0.0f};
+    for (int32_t i = 0; i < CHUNK; i += LH_LANES) {
+        for (int32_t lane = 0; lane < LH_LANES; ++lane) {
+            sum[lane] += likelihood[i + lane];
+        }
+    }
+    return lh_sum_lanes(sum);
 }
 
 /* Sum of the likelihoods: between 1 and count. */
 static float partition(const float *q, int32_t count, float temperature, float q_max) {
-    float likelihood[LH_LANES];
+    float likelihood[CHUNK];
     float sum = 0.0f;
-    for (int32_t i = 0; i < count; i += LH_LANES) {
+    for (int32_t i = 0; i < count; i += CHUNK) {
         sum += likelihoods(&q[i], count - i, temperature, q_max, likelihood);
     }
     return sum;
@@ -78,28 +86,28 @@ int32_t lh_boltzmann_select(const float *q, int32_t count, float temperature, lh
     float total = partition(q, count, temperature, q_max);
     float target = lh_random_uniform(random) * total;
 
-    /* the block in which the running sum passes the target: it takes the same roundings as `total` */
-    float likelihood[LH_LANES];
+    /* the chunk in which the running sum, which takes the same roundings as `total`, passes the target */
+    float likelihood[CHUNK];
     float below = 0.0f;
-    int32_t chosen = 0;
+    int32_t first = 0;
     float sum = likelihoods(q, count, temperature, q_max, likelihood);
-    while (below + sum <= target && chosen + LH_LANES < count) {
-        chosen += LH_LANES;
+    while (below + sum <= target && first + CHUNK < count) {
+        first += CHUNK;
         below += sum;
-        sum = likelihoods(&q[chosen], count - chosen, temperature, q_max, likelihood);
+        sum = likelihoods(&q[first], count - first, temperature, q_max, likelihood);
     }
-    /* the place in the block, which rounding must not make one of likelihood 0 */
-    int32_t lane = 0;
-    for (int32_t i = 0; i < LH_LANES && below <= target; ++i) {
+    /* the place in the chunk, which rounding must not make one of likelihood 0 */
+    int32_t place = 0;
+    for (int32_t i = 0; i < CHUNK && below <= target; ++i) {
         if (likelihood[i] > 0.0f) {
-            lane = i;
+            place = i;
             below += likelihood[i];
         }
     }
     if (probability != NULL) {
-        *probability = likelihood[lane] / total;
+        *probability = likelihood[place] / total;
     }
-    return chosen + lane;
+    return first + place;
 }
 
 float lh_boltzmann_probability(const float *q, int32_t count, float temperature, int32_t index) {

@@ -1,8 +1,14 @@
 /* Compile-time capacities. Every struct of the library has its full size by them; nothing is allocated.
  * Define any of them on the command line to make the library smaller or larger; all sources and callers must agree.
  *
- * Bytes, with S = LH_UNIT_SLOTS: lh_network 4 * S * (LH_MAX_INPUTS + 2) + 8; action values 4 * LH_MAX_ACTIONS;
- * lh_action_scratch 4 * S * (LH_ACTION_LEVELS * LH_MAX_ACTUATORS + 1). */
+ * At most so many bytes, with S = LH_UNIT_SLOTS, A = LH_MAX_ACTUATORS, L = LH_MAX_LINKS and P = LH_MAX_SUPPORTS:
+ *     lh_network         8 + 4 S (2 A + 4)
+ *     lh_action_scratch  4 S (3 A + 1)
+ *     lh_learner         lh_network + lh_action_scratch + 4 LH_MAX_ACTIONS + 88
+ *     lh_controller      lh_learner + 24 A + 64 L + 20 P + 216
+ * and on the stack, where lh_controller_step takes the most, about 900 + 4 S (A + 1).
+ *
+ * The time of a decision grows with S and the number of joint actions. */
 #ifndef LIMPHOME_CAPACITY_H
 #define LIMPHOME_CAPACITY_H
 

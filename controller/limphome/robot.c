@@ -7,7 +7,7 @@ static bool is_good_actuator(const lh_actuator *actuator) {
     bool good_range = lh_within(actuator->low, -LH_ANGLE_LIMIT, LH_ANGLE_LIMIT) &&
                       lh_within(actuator->high, -LH_ANGLE_LIMIT, LH_ANGLE_LIMIT) && actuator->low < actuator->high;
     return (is_joint ? good_range : actuator->kind == LH_CRAWLER) && actuator->effort_limit > 0.0f &&
-           lh_finite(actuator->effort_limit);
+           actuator->effort_limit <= LH_EFFORT_LIMIT;
 }
 
 static bool is_good_point(lh_vec3 v) {
@@ -77,5 +77,5 @@ lh_error lh_robot_validate(const lh_robot *robot) {
             return LH_ERROR_ROBOT;
         }
     }
-    return mass > 0.0f ? LH_OK : LH_ERROR_ROBOT;
+    return mass >= LH_LEAST_MASS ? LH_OK : LH_ERROR_ROBOT;
 }

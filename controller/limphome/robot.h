@@ -17,6 +17,8 @@ extern "C" {
 #define LH_ANGLE_LIMIT 100.0f   /* of a joint [rad] */
 #define LH_LENGTH_LIMIT 1000.0f /* of a coordinate or radius [m] */
 #define LH_MASS_LIMIT 1e6f      /* of a link [kg] */
+#define LH_EFFORT_LIMIT 1e9f    /* of an actuator's effort_limit [N*m] */
+#define LH_LEAST_MASS 1e-6f     /* of the robot [kg], so that its reciprocal is finite */
 
 typedef enum lh_actuator_kind { LH_CRAWLER = 0, LH_JOINT = 1 } lh_actuator_kind;
 
@@ -55,7 +57,7 @@ typedef struct lh_robot {
 } lh_robot;
 
 /* LH_OK, or LH_ERROR_ACTUATORS or LH_ERROR_ROBOT where a rule above is broken or a magnitude above its limit; the total
- * mass must be above 0. */
+ * mass must be LH_LEAST_MASS or more. */
 lh_error lh_robot_validate(const lh_robot *robot);
 
 #ifdef __cplusplus

@@ -21,6 +21,7 @@ START_TEST(broken_rules_are_named) {
     BAD(actuators[0].effort_limit, 0.0f, LH_ERROR_ACTUATORS);
     BAD(actuators[0].effort_limit, INFINITY, LH_ERROR_ACTUATORS);
     BAD(actuators[4].effort_limit, NAN, LH_ERROR_ACTUATORS);
+    BAD(actuators[1].effort_limit, 1.001f * LH_EFFORT_LIMIT, LH_ERROR_ACTUATORS); /* twice it must be finite */
     BAD(actuators[2].high, -2.6f, LH_ERROR_ACTUATORS);
     BAD(actuators[2].low, NAN, LH_ERROR_ACTUATORS);
     BAD(actuators[2].low, -101.0f, LH_ERROR_ACTUATORS);
@@ -52,13 +53,15 @@ START_TEST(broken_rules_are_named) {
 }
 END_TEST
 
-START_TEST(total_mass_must_be_positive) {
+START_TEST(total_mass_must_have_a_finite_reciprocal) {
     lh_robot robot = crawler_robot();
     for (int32_t i = 0; i < robot.num_links; ++i) {
         robot.links[i].mass = 0.0f;
     }
     ck_assert_int_eq(lh_robot_validate(&robot), LH_ERROR_ROBOT);
-    robot.links[5].mass = 1.0f;
+    robot.links[5].mass = 1e-44f;
+    ck_assert_int_eq(lh_robot_validate(&robot), LH_ERROR_ROBOT);
+    robot.links[5].mass = LH_LEAST_MASS;
     ck_assert_int_eq(lh_robot_validate(&robot), LH_OK);
 }
 END_TEST
@@ -68,7 +71,7 @@ Suite *suite(void) {
     TCase *t = tcase_create("rules");
     tcase_add_test(t, crawler_is_good);
     tcase_add_test(t, broken_rules_are_named);
-    tcase_add_test(t, total_mass_must_be_positive);
+    tcase_add_test(t, total_mass_must_have_a_finite_reciprocal);
     suite_add_tcase(s, t);
     return s;
 }

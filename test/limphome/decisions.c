@@ -1,0 +1,87 @@
+/* Takes 10,000 decisions with a simple robot that moves as it is told, learning all the while, and prints a hash of
+ * every decision and of what was learned. Builds of the library with other flags or capacities
+ * must print the same. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "crawler.h"
+#include "limphome/controller.h"
+
+enum { DECISIONS = 10000 };
+#define PERIOD 0.5f
+
+static lh_controller controller;
+
+/* FNV-1a. */
+static uint64_t hash(uint64_t so_far, const void *data, size_t size) {
+    const unsigned char *bytes = data;
+    for (size_t i = 0; i < size; ++i) {
+        so_far = (so_far ^ bytes[i]) * 1099511628211u;
+    }
+    return so_far;
+}
+
+/* What is in use of it, so that capacities do not matter. */
+static uint64_t hash_network(uint64_t so_far, const lh_network *network) {
+    const size_t size = (size_t)network->units * sizeof(float);
+    so_far = hash(so_far, network->weight, size);
+    so_far = hash(so_far, network->width, size);
+    for (int32_t i = 0; i < network->inputs; ++i) {
+        so_far = hash(so_far, network->centre[i], size);
+    }
+    return so_far;
+}
+
+/* Joints turn as told within their range; the robot drives ahead and veers to the failed crawler's side, less so the
+ * more its arm bears on the ground. */
+static void move(lh_state *state, const lh_robot *robot, const lh_decision *decision, lh_random *random) {
+    for (int32_t k = 2; k < robot->num_actuators; ++k) {
+        const lh_actuator *joint = &robot->actuators[k];
+        float angle = state->actuator_position[k] + PERIOD * decision->velocity[k];
+        angle = angle < joint->low ? joint->low : angle;
+        state->actuator_position[k] = angle > joint->high ? joint->high : angle;
+    }
+    float advance = PERIOD * decision->velocity[1];
+    float heading = lh_quat_heading(state->orientation) + 0.2f * advance * state->actuator_position[3];
+    float tilt = 0.2f * (lh_random_uniform(random) - 0.5f);
+    state->position[0] += advance * -heading;
+    state->position[1] += advance;
+    state->orientation = lh_quat_multiply(lh_quat_about((lh_vec3){0.0f, 0.0f, 1.0f}, heading),
+                                          lh_quat_about((lh_vec3){1.0f, 0.0f, 0.0f}, tilt));
+    state->actuator_effort[1] = 2000.0f * (lh_random_uniform(random) - 0.5f);
+}
+
+int main(void) {
+    const lh_robot robot = crawler_robot();
+    const lh_controlled controlled = crawler_controlled();
+    lh_config config = lh_config_default();
+    config.learner.network.initial_weight = 0.1f;
+    config.learner.network.exact_gradient = true;
+    config.episode.goal_distance = 0.5f;
+    if (lh_controller_init(&controller, &config, &robot, &controlled) != LH_OK) {
+        return 1;
+    }
+    lh_random random;
+    lh_random_init(&random, 2);
+    lh_state state = crawler_state(0.0f, 0.0f, 0.0f);
+    uint64_t result = 14695981039346656037u;
+    for (int32_t k = 0; k < DECISIONS; ++k) {
+        lh_decision decision;
+        if (lh_controller_step(&controller, &state, &decision) != LH_OK) {
+            return 1;
+        }
+        result = hash(result, &decision.choice, sizeof decision.choice);
+        result = hash(result, &decision.td_error, sizeof decision.td_error);
+        result = hash(result, &decision.stability_margin, sizeof decision.stability_margin);
+        if (decision.reset) {
+            state = crawler_state(0.0f, 0.0f, 0.0f);
+        } else {
+            move(&state, &robot, &decision, &random);
+        }
+    }
+    result = hash_network(result, &controller.learner.network);
+    result = hash(result, &controller.learner.random, sizeof controller.learner.random);
+    printf("%016" PRIx64 " after %" PRId32 " episodes\n", result, controller.episode.number);
+    return 0;
+}
