@@ -1,0 +1,23 @@
+/* The library's own way. */
+#include "decision.h"
+
+static lh_learner learner;
+static const problem *given;
+static int32_t action;
+
+static void begin(const problem *p) {
+    given = p;
+    learner = p->learner;
+    action = 0;
+}
+
+static int32_t decide(int32_t k) {
+    const float *before = given->states[(k + SITUATIONS - 1) % SITUATIONS];
+    float q_max = lh_learner_evaluate(&learner, given->states[k % SITUATIONS]);
+    lh_choice choice = lh_learner_choose(&learner, TEMPERATURE, false);
+    lh_learner_learn(&learner, before, action, reward_of(k), q_max, false);
+    action = choice.action;
+    return action;
+}
+
+const method library_method = {begin, decide};
