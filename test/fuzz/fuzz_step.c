@@ -1,0 +1,28 @@
+/* lh_controller_step: any bit pattern of lh_state, step after step. */
+#include "crawler.h"
+#include "sound.h"
+
+static lh_config varied(uint8_t choices) {
+    lh_config config = lh_config_default();
+    config.learn = (choices & 1) == 0;
+    config.greedy = (choices & 2) != 0;
+    config.learner.network.exact_gradient = (choices & 4) != 0;
+    config.reward.heading_error = (choices & 8) != 0;
+    config.episode.step_limit = (choices & 16) != 0 ? 3 : 200;
+    config.episode.reset_every = (choices & 32) != 0 ? 1 : 50;
+    config.learner.network.initial_weight = (choices & 64) != 0 ? -1e4f : 0.0f;
+    config.learner.network.rate_width = (choices & 128) != 0 ? 10.0f : 0.01f;
+    return config;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    static lh_controller controller;
+    fuzz_input in = {data, size};
+    const lh_config config = varied(fuzz_byte(&in));
+    const lh_robot robot = crawler_robot();
+    const lh_controlled controlled = crawler_controlled();
+    FUZZ_EXPECT(lh_controller_init(&controller, &config, &robot, &controlled) == LH_OK);
+    const lh_state good = crawler_state(0.0f, 0.0f, 1.5f);
+    fuzz_steps(&in, &controller, &good);
+    return 0;
+}

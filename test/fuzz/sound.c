@@ -1,0 +1,86 @@
+#include "sound.h"
+
+#include <string.h>
+
+enum { LARGEST_NUMBER_OF_STEPS = 64 };
+
+static bool finite(const float *values, int32_t count) {
+    bool good = true;
+    for (int32_t i = 0; i < count; i++) {
+        good = good && lh_finite(values[i]);
+    }
+    return good;
+}
+
+static bool finite_reward(const lh_reward *reward) {
+    const float terms[] = {reward->motion, reward->goal, reward->stability, reward->tumble};
+    return finite(terms, 4);
+}
+
+static void expect_sound_summary(const lh_controller *controller, const lh_summary *summary) {
+    const float values[] = {summary->lateral_error, summary->heading_change, summary->start.x,
+                            summary->start.y,       summary->start.heading,  summary->goal_distance};
+    FUZZ_EXPECT(finite(values, 6) && finite_reward(&summary->total));
+    FUZZ_EXPECT(summary->steps >= 1 && summary->steps <= controller->config.episode.step_limit);
+    FUZZ_EXPECT(summary->outcome <= LH_OUTCOME_TIMEOUT);
+    FUZZ_EXPECT(summary->temperature >= controller->config.temperature_floor);
+}
+
+static void expect_sound_choice(const lh_controller *controller, const lh_decision *decision) {
+    const lh_choice *choice = &decision->choice;
+    FUZZ_EXPECT(choice->action >= 0 && choice->action < controller->learner.num_actions);
+    FUZZ_EXPECT(lh_finite(choice->q) && lh_finite(choice->q_max) && choice->q <= choice->q_max);
+    FUZZ_EXPECT(choice->probability > 0.0f && choice->probability <= 1.0f);
+    FUZZ_EXPECT(decision->temperature >= controller->config.temperature_floor);
+    FUZZ_EXPECT(decision->num_inputs == controller->learner.network.inputs);
+    for (int32_t k = 0; k < controller->robot.num_actuators; k++) {
+        FUZZ_EXPECT(lh_within(decision->velocity[k], -2.0f, 2.0f));
+    }
+}
+
+static void expect_sound(const lh_controller *controller, const lh_decision *decision) {
+    FUZZ_EXPECT(finite_reward(&decision->reward) && lh_finite(decision->td_error));
+    FUZZ_EXPECT(lh_finite(decision->stability_margin) && lh_finite(decision->goal_distance));
+    FUZZ_EXPECT(lh_finite(decision->lateral_error));
+    for (int32_t i = 0; i < decision->num_inputs; i++) {
+        FUZZ_EXPECT(lh_within(decision->inputs[i], 0.0f, 1.0f));
+    }
+    if (decision->ended) {
+        expect_sound_summary(controller, &decision->summary);
+    }
+    if (!decision->reset) {
+        expect_sound_choice(controller, decision);
+    }
+    const lh_learner *learner = &controller->learner;
+    FUZZ_EXPECT(lh_network_validate(&learner->network, &controller->config.learner.network) == LH_OK);
+    FUZZ_EXPECT(learner->clamped >= 0 && controller->clamped >= 0);
+}
+
+void fuzz_step(lh_controller *controller, const lh_state *state) {
+    static lh_controller before; /* large for a stack */
+    lh_decision decision;
+    memset(&decision, 0xa5, sizeof decision);
+    lh_decision untouched = decision;
+    memcpy(&before, controller, sizeof before);
+    if (lh_controller_step(controller, state, &decision) == LH_OK) {
+        expect_sound(controller, &decision);
+    } else {
+        FUZZ_EXPECT(memcmp(controller, &before, sizeof before) == 0);
+        FUZZ_EXPECT(memcmp(&decision, &untouched, sizeof decision) == 0);
+    }
+}
+
+void fuzz_steps(fuzz_input *in, lh_controller *controller, const lh_state *good) {
+    lh_state state = *good;
+    for (int i = 0; i < LARGEST_NUMBER_OF_STEPS && in->size > 0; i++) {
+        const uint8_t what = fuzz_byte(in);
+        if (what & 1) {
+            state = *good; /* else the words overwritten before stay */
+        }
+        if ((what & 14) == 2) {
+            lh_controller_begin(controller);
+        }
+        fuzz_patch(in, &state, sizeof state, sizeof(float));
+        fuzz_step(controller, &state);
+    }
+}
