@@ -1,0 +1,60 @@
+/* Takes the decisions of a recorded run again: decisions.bin receives each of them, learner.bin all that the learner
+ * holds after the last. On every platform both must have the same bytes. */
+#include <stddef.h>
+#include <string.h>
+
+#include "platform.h"
+#include "recording.h"
+
+static recorded_decision record(const lh_decision *d) {
+    recorded_decision r = {
+        .episode = d->episode,
+        .step = d->step,
+        .learned = d->learned,
+        .action = d->choice.action,
+        .q = d->choice.q,
+        .q_max = d->choice.q_max,
+        .probability = d->choice.probability,
+        .temperature = d->temperature,
+        .td_error = d->td_error,
+        .reward_motion = d->reward.motion,
+        .reward_goal = d->reward.goal,
+        .reward_stability = d->reward.stability,
+        .reward_tumble = d->reward.tumble,
+        .stability_margin = d->stability_margin,
+        .goal_distance = d->goal_distance,
+        .lateral_error = d->lateral_error,
+    };
+    memcpy(r.inputs, d->inputs, sizeof r.inputs);
+    return r;
+}
+
+/* All but the configuration, whose padding has no definite value. */
+static bool save_learner(const lh_learner *learner) {
+    const size_t begin = offsetof(lh_learner, num_states);
+    const int file = platform_open("learner.bin", true);
+    return platform_write(file, (const char *)learner + begin, sizeof *learner - begin);
+}
+
+int main(void) {
+    static lh_controller controller; /* too large for a comfortable stack */
+    const int states = recording_open(&controller);
+    if (states < 0) {
+        return 1;
+    }
+    const int decisions = platform_open("decisions.bin", true);
+    for (int i = 0; i < RECORDING_DECISIONS; ++i) {
+        lh_state state;
+        lh_decision decision;
+        if (!recording_next(states, &state) || lh_controller_step(&controller, &state, &decision) != LH_OK) {
+            platform_say("a state is missing or not valid\n");
+            return 1;
+        }
+        const recorded_decision recorded = record(&decision);
+        if (!platform_write(decisions, &recorded, sizeof recorded)) {
+            platform_say("cannot write\n");
+            return 1;
+        }
+    }
+    return save_learner(&controller.learner) ? 0 : 1;
+}
