@@ -186,6 +186,7 @@ static void finish_step(lh_controller *controller, const situation *now, lh_deci
     lh_outcome outcome = lh_episode_outcome(episode, &controller->config.episode, &now->pose, now->tilt);
     decision->stepped = true;
     decision->reward = rewards_of_step(controller, now, outcome);
+    controller->clamped += now->margin < LH_LEAST_MARGIN;
     add_reward(&episode->total, &decision->reward);
     if (controller->config.learn) {
         learn_from_step(controller, decision->inputs, outcome, decision);
@@ -210,6 +211,7 @@ static void describe(const lh_controller *controller, const situation *now, lh_d
 static void choose(lh_controller *controller, const situation *now, lh_decision *decision) {
     const lh_controlled *controlled = &controller->controlled;
     decision->temperature = temperature_of(controller);
+    controller->clamped += decision->temperature == controller->config.temperature_floor;
     lh_learner_evaluate(&controller->learner, decision->inputs);
     decision->choice = lh_learner_choose(&controller->learner, decision->temperature, controller->config.greedy);
 

@@ -93,7 +93,9 @@ typedef struct lh_controller {
     int32_t action;                    /* chosen joint action */
     lh_pose2 pose;                     /* where it was chosen */
     float inputs[LH_MAX_STATE_INPUTS]; /* state inputs there */
-    int64_t clamped;                   /* sensor values limited to their range so far */
+    /* sensor values limited to their range, temperatures to their floor and margins to LH_LEAST_MARGIN so far; what was
+     * limited in learning is counted in learner.clamped */
+    int64_t clamped;
 } lh_controller;
 
 /* The paper's values, learning, with Boltzmann selection. */

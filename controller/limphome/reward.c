@@ -2,8 +2,6 @@
 
 #include "limphome/elementary.h"
 
-#define LEAST_MARGIN (-5.0f) /* [m]; keeps exp(-S) of (12) in bounds whatever the posture */
-
 lh_reward_config lh_reward_config_default(void) {
     return (lh_reward_config){
         .forward = 8.0f,
@@ -43,7 +41,7 @@ float lh_reward_goal(const lh_reward_config *config, float lateral_error) {
 }
 
 float lh_reward_stability(const lh_reward_config *config, float margin) {
-    return -config->stability * lh_exp(-(margin < LEAST_MARGIN ? LEAST_MARGIN : margin));
+    return -config->stability * lh_exp(-(margin < LH_LEAST_MARGIN ? LH_LEAST_MARGIN : margin));
 }
 
 float lh_reward_total(const lh_reward *reward) {

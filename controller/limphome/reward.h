@@ -10,6 +10,8 @@
 extern "C" {
 #endif
 
+#define LH_LEAST_MARGIN (-5.0f) /* [m]; keeps exp(-S) of (12) in bounds whatever the posture */
+
 typedef struct lh_reward_config {
     float forward;      /* eta of (8) [1/m], 0 to 1000; paper: 8 */
     float sideways;     /* lambda of (8) [1/m], 0 to 1000; paper: 2 */
@@ -45,7 +47,8 @@ float lh_reward_motion(const lh_reward_config *config, const lh_pose2 *before, c
 /* r(2) of (9) on reaching the goal line `lateral_error` [m] beside the goal (d3). */
 float lh_reward_goal(const lh_reward_config *config, float lateral_error);
 
-/* r(3) of (12) for the NE stability margin `margin` [m]; margins below -5 m count as -5 m. */
+/* r(3) of (12) for the NE stability margin `margin` [m]; margins below LH_LEAST_MARGIN
+ * count as that. */
 float lh_reward_stability(const lh_reward_config *config, float margin);
 
 /* Sum of the four terms. */

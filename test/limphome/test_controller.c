@@ -1,5 +1,6 @@
 #include "limphome/controller.h"
 
+#include <float.h>
 #include <stddef.h>
 
 #include "crawler.h"
@@ -539,6 +540,115 @@ START_TEST(works_at_full_capacity) {
 }
 END_TEST
 
+START_TEST(limited_temperatures_and_margins_are_counted) {
+    lh_config config = lh_config_default();
+    config.temperature_floor = 2.0f; /* (4) gives 10.5 in episode 1, and 1.35 in episode 2 */
+    config.episode.step_limit = 3;
+    init(&controller, &config);
+    for (int32_t i = 0; i < 3; ++i) {
+        ck_assert_float_gt(step_at(&controller, 0.0f, 0.0f).temperature, 2.0f);
+        ck_assert_int_eq(controller.clamped, 0);
+    }
+    for (int32_t i = 0; i < 3; ++i) {
+        ck_assert_float_eq(step_at(&controller, 0.0f, 0.0f).temperature, 2.0f);
+        ck_assert_int_eq(controller.clamped, i + 1);
+    }
+    /* a mast so high that the centre of mass lies far out when the robot lies on its side */
+    controller.robot.links[3].centre.z = 900.0f;
+    lh_state state = tumbled_state((lh_vec3){1.0f, 0.0f, 0.0f});
+    const lh_decision d = step(&controller, &state);
+    ck_assert_float_lt(d.stability_margin, LH_LEAST_MARGIN);
+    expect_near(d.reward.stability, -exp(5.0), 1e-3);
+    ck_assert_int_eq(controller.clamped, 4);
+}
+END_TEST
+
+static float any_of(lh_random *random, const float *values, int32_t count) {
+    return values[lh_random_next(random) % (uint32_t)count];
+}
+
+/* Within the interface every fourth time or so, at its ends and beyond. */
+static lh_state extreme_state(lh_random *random) {
+    static const float length[] = {0.0f, 1.0f, -1e6f, 1e6f, 1e-38f, 0.3f, 2.1f, -2.1f, 1e6f, 1e7f, NAN};
+    static const float angle[] = {0.0f, -0.0f, 0.6f, -1.5f, 3.0f, -100.0f, 100.0f, 1e-40f, 99.0f, 101.0f, INFINITY};
+    static const float effort[] = {0.0f, 1e3f, -1e3f, FLT_MAX, -FLT_MAX, FLT_MIN, 3e38f, 5e2f, 1e30f, -INFINITY};
+    lh_state state = crawler_state(0.0f, 0.0f, 6.2f * lh_random_uniform(random));
+    for (int32_t i = 0; i < 3; ++i) {
+        state.position[i] = any_of(random, length, COUNT(length));
+    }
+    for (int32_t k = 0; k < state.num_actuators; ++k) {
+        state.actuator_position[k] = any_of(random, angle, COUNT(angle) - (k % 2));
+        state.actuator_effort[k] = any_of(random, effort, COUNT(effort) - (k % 2));
+    }
+    const float tilt[] = {0.0f, 0.01f, 0.9f, 1.6f, 3.14159274f};
+    state.orientation = lh_quat_multiply(state.orientation,
+                                         lh_quat_about((lh_vec3){1.0f, 0.0f, 0.0f}, any_of(random, tilt, COUNT(tilt))));
+    return state;
+}
+
+static bool all_finite(const float *values, int32_t count) {
+    bool finite = true;
+    for (int32_t i = 0; i < count; ++i) {
+        finite = finite && isfinite(values[i]);
+    }
+    return finite;
+}
+
+static bool is_finite_decision(const lh_decision *d) {
+    const float all[] = {d->reward.motion,
+                         d->reward.goal,
+                         d->reward.stability,
+                         d->reward.tumble,
+                         d->td_error,
+                         d->goal_distance,
+                         d->lateral_error,
+                         d->stability_margin,
+                         d->choice.q,
+                         d->choice.q_max,
+                         d->temperature,
+                         d->choice.probability,
+                         d->summary.total.motion,
+                         d->summary.lateral_error};
+    return all_finite(all, COUNT(all)) && all_finite(d->inputs, d->num_inputs) && all_finite(d->velocity, 5);
+}
+
+/* Whatever the sensors say and however the rates are set, nothing but finite numbers within their limits is stored. */
+START_TEST(extremes_leave_finite_numbers_within_their_limits) {
+    lh_config config = lh_config_default();
+    config.learner.learning_rate = config.learner.discount_rate = 1.0f;
+    config.learner.network.rate_weight = config.learner.network.rate_centre = config.learner.network.rate_width = 10.0f;
+    config.learner.network.exact_gradient = true;
+    config.learner.network.weight_limit = 1e6f;
+    config.learner.network.width_floor = 0.01f;
+    config.reward = (lh_reward_config){1000.0f, 1000.0f, 1000.0f, true, 1000.0f, 1000.0f, -1000.0f};
+    config.temperature_floor = 1e-4f;
+    lh_random random;
+    lh_random_init(&random, 4);
+    int32_t decided = 0;
+    int32_t faults = 0;
+    int64_t held = 0;
+    for (int32_t offered = 0; decided < 100000; ++offered) {
+        if (decided % 100 == 0) { /* once all is at its limits, little is learned */
+            config.seed = (uint64_t)offered;
+            init(&controller, &config);
+        }
+        const lh_state state = extreme_state(&random);
+        lh_decision d;
+        if (lh_controller_step(&controller, &state, &d) == LH_OK) {
+            ++decided;
+            held += d.learned && controller.learner.clamped > 0;
+            faults += !is_finite_decision(&d);
+            faults += lh_network_validate(&controller.learner.network, &controller.config.learner.network) != LH_OK;
+            faults += !all_finite(controller.learner.q, controller.learner.num_actions);
+        }
+        ck_assert_int_lt(offered, 10000000);
+    }
+    ck_assert_int_eq(faults, 0);
+    ck_assert_int_gt(held, 10000);
+    ck_assert_int_gt(controller.clamped, 0);
+}
+END_TEST
+
 /* A reward for driving forward must show: after learning on the toy, the greedy policy drives forward. */
 START_TEST(learns_to_drive_forward) {
     lh_config config = lh_config_default();
@@ -578,7 +688,9 @@ Suite *suite(void) {
     tcase_add_test(t, without_learning_the_network_stays);
     tcase_add_test(t, greedy_takes_a_best_action);
     tcase_add_test(t, limited_sensor_values_are_counted);
+    tcase_add_test(t, limited_temperatures_and_margins_are_counted);
     tcase_add_test(t, invalid_state_changes_nothing);
+    tcase_add_test(t, extremes_leave_finite_numbers_within_their_limits);
     tcase_add_test(t, works_at_full_capacity);
     tcase_add_test(t, learns_to_drive_forward);
     suite_add_tcase(s, t);
