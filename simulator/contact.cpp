@@ -1,7 +1,5 @@
 #include "contact.h"
 
-#include <algorithm>
-
 #include "convert.h"
 #include "crawler.h"
 
@@ -45,9 +43,8 @@ Eigen::Vector3d initial_impulse(const Contact &contact, const std::vector<Contac
     return Eigen::Vector3d::Zero();
 }
 
-Contact make_contact(const Robot &robot, const Ground &ground, const Touch &touch) {
+void make_contact(const Robot &robot, const Ground &ground, const Touch &touch, Contact &contact) {
     const ContactShape &shape = robot.shapes()[static_cast<std::size_t>(touch.shape)];
-    Contact contact;
     contact.shape = touch.shape;
     contact.point = touch.point;
     contact.frame = contact_frame(robot, shape, touch.normal);
@@ -57,22 +54,17 @@ Contact make_contact(const Robot &robot, const Ground &ground, const Touch &touc
     if (shape.on_crawler) {
         add_belt(robot, shape.part, contact);
     }
-    return contact;
 }
 
 }  // namespace
 
-std::vector<Contact> make_contacts(const Robot &robot, const Ground &ground, const std::vector<Touch> &touches,
-                                   const std::vector<Contact> &previous) {
-    std::vector<Contact> contacts;
-    contacts.reserve(touches.size());
-    for (const Touch &touch : touches) {
-        const auto place = std::upper_bound(contacts.begin(), contacts.end(), touch.shape,
-                                            [](int shape, const Contact &other) { return shape < other.shape; });
-        const auto contact = contacts.insert(place, make_contact(robot, ground, touch));
-        contact->impulse = initial_impulse(*contact, previous);
+void make_contacts(const Robot &robot, const Ground &ground, const std::vector<Touch> &touches,
+                   const std::vector<Contact> &previous, std::vector<Contact> &contacts) {
+    contacts.resize(touches.size());
+    for (std::size_t i = 0; i < touches.size(); i++) {
+        make_contact(robot, ground, touches[i], contacts[i]);
+        contacts[i].impulse = initial_impulse(contacts[i], previous);
     }
-    return contacts;
 }
 
 }  // namespace limphome

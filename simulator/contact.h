@@ -28,9 +28,8 @@ struct GroundStiffness {
     double damping;    // [N s/m]
 };
 
-// Contacts ordered by shape, so that nothing depends on the order in which they were found. Impulses start from those
-// of the same shape in `previous`.
-std::vector<Contact> make_contacts(const Robot &robot, const Ground &ground, const std::vector<Touch> &touches,
-                                   const std::vector<Contact> &previous);
+// Fills `contacts`, one per touch in their order. Impulses start from those of the same shape in `previous`.
+void make_contacts(const Robot &robot, const Ground &ground, const std::vector<Touch> &touches,
+                   const std::vector<Contact> &previous, std::vector<Contact> &contacts);
 
 }  // namespace limphome

@@ -53,13 +53,21 @@ Pipeline::Pipeline(btDispatcher *dispatcher, btBroadphaseInterface *broadphase, 
         addCollisionObject(collider.get(), robot_group, ground_group);
     }
     addMultiBody(&robot_.multibody());
+    const std::size_t room = 4 * robot_.shapes().size();  // a shape may touch uneven ground in several points
+    touches_.reserve(room);
+    contacts.reserve(room);
+    previous_.reserve(room);
 }
 
 void Pipeline::solveConstraints(btContactSolverInfo &info) {
     solveExternalForces(info);
-    const std::vector<Touch> touches =
-        ground_.level() ? plane_touches(*getDispatcher()) : ground_touches(robot_, ground_);
-    contacts = make_contacts(robot_, ground_, touches, contacts);
+    if (ground_.level()) {
+        plane_touches(*getDispatcher(), touches_);
+    } else {
+        ground_touches(robot_, ground_, touches_);
+    }
+    contacts.swap(previous_);
+    make_contacts(robot_, ground_, touches_, previous_, contacts);
     solver_.solve(robot_.multibody(), joints, contacts, info.m_timeStep);
 }
 
@@ -74,11 +82,14 @@ Scene::Scene(const RobotModel &model, const settings &s, const Ground &ground, c
       time_step_(s.simulator.time_step_s) {
     // See contacts of all shapes from the same distance, not from one that depends on their size.
     dispatcher_.setDispatcherFlags(0);
-    dispatcher_.setNearCallback(look_near_ground);
     plane_.setCollisionShape(&ground_shape_);
     if (ground.level()) {
         pipeline_.addCollisionObject(&plane_, ground_group, robot_group);
     }
+    // Bullet gets its memory for a pair when it looks at it for the first and the second time: do that here for all.
+    pipeline_.performDiscreteCollisionDetection();
+    pipeline_.performDiscreteCollisionDetection();
+    dispatcher_.setNearCallback(look_near_ground);
     set_gravity({0, 0, -standard_gravity});
     for (const Failure &failure : failures) {
         if (failure.time == 0) {

@@ -38,6 +38,8 @@ class Pipeline final : public btMultiBodyDynamicsWorld {
     Robot &robot_;
     const Ground &ground_;
     Solver solver_;
+    std::vector<Touch> touches_;     // of the last step
+    std::vector<Contact> previous_;  // contacts of the step before
 };
 
 class Scene {

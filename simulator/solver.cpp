@@ -74,6 +74,7 @@ void Solver::hold_joints(const std::vector<JointConstraint> &joints) {
 template <int dofs>
 void Solver::prepare_contacts(const std::vector<Contact> &contacts, double time_step) {
     const double share = ground_.stiffness / (ground_.stiffness * time_step + ground_.damping);
+    rows_.reserve(contacts.capacity());  // there may be more in a later step
     rows_.resize(contacts.size());
     for (std::size_t i = 0; i < contacts.size(); i++) {
         const Contact &contact = contacts[i];

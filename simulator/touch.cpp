@@ -3,6 +3,7 @@
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "convert.h"
@@ -16,6 +17,12 @@ constexpr double arc = 1.5 * M_PI;    // of the circle that is searched [rad]
 constexpr int run_samples = 7;        // of the flat run of a belt
 constexpr int most_refinements = 30;  // each at least halves the interval
 constexpr double fine = 1e-9;         // share of the interval between samples
+
+void add_by_shape(std::vector<Touch> &touches, const Touch &touch) {
+    const auto place = std::upper_bound(touches.begin(), touches.end(), touch,
+                                        [](const Touch &a, const Touch &b) { return a.shape < b.shape; });
+    touches.insert(place, touch);
+}
 
 // Curve on the robot: point and derivative at a parameter.
 struct CurvePoint {
@@ -41,7 +48,7 @@ class Search {
     void add(int shape, const Eigen::Vector3d &point, const Clearance &clearance) {
         if (clearance.distance < reach) {
             const Eigen::Vector3d middle = point - 0.5 * clearance.distance * clearance.normal;
-            touches_.push_back({shape, middle, clearance.normal, -clearance.distance});
+            add_by_shape(touches_, {shape, middle, clearance.normal, -clearance.distance});
         }
     }
 
@@ -140,8 +147,8 @@ void touch_balls(Search &search, const Robot &robot) {
 
 }  // namespace
 
-std::vector<Touch> plane_touches(const btDispatcher &dispatcher) {
-    std::vector<Touch> touches;
+void plane_touches(const btDispatcher &dispatcher, std::vector<Touch> &touches) {
+    touches.clear();
     for (int m = 0; m < dispatcher.getNumManifolds(); m++) {
         const btPersistentManifold &manifold =
             *const_cast<btDispatcher &>(dispatcher).getManifoldByIndexInternal(m);  // Bullet gives no const access
@@ -154,20 +161,18 @@ std::vector<Touch> plane_touches(const btDispatcher &dispatcher) {
             const int shape =
                 swapped ? second->getUserIndex() + point.m_index1 : first->getUserIndex() + point.m_index0;
             const Eigen::Vector3d middle = 0.5 * to_eigen(point.getPositionWorldOnA() + point.getPositionWorldOnB());
-            touches.push_back({shape, middle, swapped ? Eigen::Vector3d(-normal) : normal, -point.getDistance()});
+            add_by_shape(touches, {shape, middle, swapped ? Eigen::Vector3d(-normal) : normal, -point.getDistance()});
         }
     }
-    return touches;
 }
 
-std::vector<Touch> ground_touches(const Robot &robot, const Ground &ground) {
-    std::vector<Touch> touches;
+void ground_touches(const Robot &robot, const Ground &ground, std::vector<Touch> &touches) {
+    touches.clear();
     for (int piece = 0; piece < ground.pieces(); piece++) {
         Search search(ground, piece, touches);
         touch_crawlers(search, robot);
         touch_balls(search, robot);
     }
-    return touches;
 }
 
 }  // namespace limphome

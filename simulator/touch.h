@@ -18,11 +18,14 @@ struct Touch {
     double depth;            // of penetration; below 0: gap [m]
 };
 
+// Both fill `touches` ordered by shape, so that nothing depends on the order in which they were found; memory that it
+// has is used again.
+
 // Those that Bullet has found between the robot and a plane.
-std::vector<Touch> plane_touches(const btDispatcher &dispatcher);
+void plane_touches(const btDispatcher &dispatcher, std::vector<Touch> &touches);
 
 // Those on any other ground, piece by piece of it. Balls touch in one point, edges of belts where their rounded ends
 // are nearest to the ground and wherever it bulges towards the flat run between them.
-std::vector<Touch> ground_touches(const Robot &robot, const Ground &ground);
+void ground_touches(const Robot &robot, const Ground &ground, std::vector<Touch> &touches);
 
 }  // namespace limphome
