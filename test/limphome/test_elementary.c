@@ -190,6 +190,9 @@ START_TEST(wrapped_angles) {
     }
     expect_near(lh_wrap_angle(-LH_PI), M_PI, 2e-7);
     ck_assert_float_eq(lh_wrap_angle(LH_PI), LH_PI);
+    /* where the rounding of 35 half turns ends outside */
+    ck_assert_float_eq(lh_wrap_angle(109.955742f), LH_PI);
+    ck_assert_float_eq(lh_wrap_angle(-109.955742f), LH_PI);
     ck_assert(isnan(lh_wrap_angle(NAN)) && isnan(lh_wrap_angle(INFINITY)) && isnan(lh_wrap_angle(1e9f)));
 }
 END_TEST

@@ -50,6 +50,8 @@ START_TEST(sizes_must_go_together) {
     ck_assert_int_eq(lh_learner_init(&learner, &config, 3, LH_MAX_ACTUATORS + 1, 1), LH_ERROR_ACTUATORS);
     ck_assert_int_eq(lh_learner_init(&learner, &config, 2, 2, 1), LH_ERROR_INPUTS);
     ck_assert_int_eq(lh_learner_init(&learner, &config, -1, 6, 1), LH_ERROR_INPUTS);
+    config.network.inputs = LH_MAX_STATE_INPUTS + 2; /* for too many states of one actuator */
+    ck_assert_int_eq(lh_learner_init(&learner, &config, LH_MAX_STATE_INPUTS + 1, 1, 1), LH_ERROR_INPUTS);
     config.network.rate_width = -1.0f;
     ck_assert_int_eq(lh_learner_init(&learner, &config, 3, 2, 1), LH_ERROR_RATE);
     ck_assert_mem_eq(&learner, &before, sizeof learner);

@@ -25,6 +25,7 @@ START_TEST(broken_rules_are_named) {
     BAD(actuators[2].high, -2.6f, LH_ERROR_ACTUATORS);
     BAD(actuators[2].low, NAN, LH_ERROR_ACTUATORS);
     BAD(actuators[2].low, -101.0f, LH_ERROR_ACTUATORS);
+    BAD(actuators[2].high, 101.0f, LH_ERROR_ACTUATORS);
     BAD(actuators[4].kind, LH_CRAWLER, LH_ERROR_ACTUATORS); /* after a joint */
     BAD(actuators[1].kind, (lh_actuator_kind)2, LH_ERROR_ACTUATORS);
     BAD(num_links, 0, LH_ERROR_ROBOT);
