@@ -7,8 +7,9 @@ import sys
 import time
 
 from tools import network, runfolder
-from tools.pair import Pair, PairFailed
-from tools.processes import Interrupted, raise_on_signals
+from tools.ending import run_script
+from tools.pair import Pair
+from tools.processes import raise_on_signals
 from tools.progress import Progress
 from tools.summary import summarise, table
 
@@ -27,13 +28,13 @@ def parse_arguments():
     return parser.parse_args()
 
 
-def evaluation_folder(run, episodes):
+def evaluation_folder(trained, episodes):
     """RUN/evaluation/, made anew: it holds nothing but what an earlier evaluation left."""
     settings = [f"learning.episodes={episodes}", "simulator.pace=lockstep"]
-    runfolder.resolve_settings(run.config, settings)  # refused before the earlier evaluation is removed
-    out = run.path / "evaluation"
+    runfolder.resolve_settings(trained.config, settings)  # refused before the earlier evaluation is removed
+    out = trained.path / "evaluation"
     shutil.rmtree(out, ignore_errors=True)
-    return runfolder.create(out, run.config, run.robot, settings)
+    return runfolder.create(out, trained.config, trained.robot, settings)
 
 
 def evaluate(folder, policy, url, episodes):
@@ -53,26 +54,14 @@ def evaluate(folder, policy, url, episodes):
 
 def main():
     args = parse_arguments()
-    try:
-        url = network.enter(args.network)
-        raise_on_signals()
-        run = runfolder.existing(args.run, "policy")
-        folder = evaluation_folder(run, args.episodes)
-        summary = evaluate(folder, run.policy, url, args.episodes)
-    except runfolder.InputError as error:
-        print(error, file=sys.stderr)
-        return 2
-    except network.NetworkError as error:
-        print(f"network: {error}", file=sys.stderr)
-        return 1
-    except PairFailed as failure:
-        print(failure, file=sys.stderr)
-        return failure.exit_code
-    except Interrupted as interrupted:
-        return interrupted.exit_code
+    url = network.enter(args.network)
+    raise_on_signals()
+    trained = runfolder.existing(args.run, "policy")
+    folder = evaluation_folder(trained, args.episodes)
+    summary = evaluate(folder, trained.policy, url, args.episodes)
     print(json.dumps(summary, indent=2) if args.json else table(summary))
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_script(main)

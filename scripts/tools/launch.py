@@ -1,12 +1,12 @@
 """scripts/launch: both processes in real time until Ctrl-C, to watch the robot learn or drive."""
 
 import argparse
-import sys
 import time
 
 from tools import network, paths, runfolder
-from tools.pair import Pair, PairFailed
-from tools.processes import Interrupted, raise_on_signals
+from tools.ending import run_script
+from tools.pair import Pair
+from tools.processes import raise_on_signals
 
 POLL_S = 0.2
 UNTIL_STOPPED = 1_000_000  # episodes
@@ -28,8 +28,8 @@ def make_folder(args):
     """(folder of this launch, options for the controller)"""
     config, robot, options = paths.CONFIG / "paper.ini", paths.CONFIG / "crawler.urdf", []
     if args.policy:
-        run = runfolder.existing(args.policy, "policy")
-        config, robot, options = run.config, run.robot, ["--evaluate", run.policy]
+        trained = runfolder.existing(args.policy, "policy")
+        config, robot, options = trained.config, trained.robot, ["--evaluate", trained.policy]
     settings = [f"learning.episodes={UNTIL_STOPPED}", "simulator.pace=real_time", *args.set]
     out = paths.RUNS / f"launch-{time.strftime('%Y%m%d-%H%M%S')}"
     return runfolder.create(out, args.config or config, args.robot or robot, settings), options
@@ -54,24 +54,12 @@ def launch(folder, url, options):
 
 def main():
     args = parse_arguments()
-    try:
-        url = network.enter(args.network)
-        raise_on_signals()
-        folder, options = make_folder(args)
-        launch(folder, url, options)
-    except runfolder.InputError as error:
-        print(error, file=sys.stderr)
-        return 2
-    except network.NetworkError as error:
-        print(f"network: {error}", file=sys.stderr)
-        return 1
-    except PairFailed as failure:
-        print(failure, file=sys.stderr)
-        return failure.exit_code
-    except Interrupted as interrupted:
-        return interrupted.exit_code
+    url = network.enter(args.network)
+    raise_on_signals()
+    folder, options = make_folder(args)
+    launch(folder, url, options)
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_script(main)

@@ -10,6 +10,8 @@ import socket
 import subprocess
 import sys
 
+from tools.ending import Ending
+
 GROUP = "239.255.76.67"
 PORT = 7667
 RECEIVE_BUFFER = 2 << 20  # [bytes]; the kernel grants up to net.core.rmem_max
@@ -19,8 +21,11 @@ LOOPBACK_UP = f"ip link set lo up multicast on && ip route add {GROUP}/32 dev lo
 ENVIRONMENT = "LIMPHOME_NETWORK"
 
 
-class NetworkError(Exception):
+class NetworkError(Ending):
     """No network to run on; the text says what to do."""
+
+    def __init__(self, text):
+        super().__init__(f"network: {text}")
 
 
 def lcm_url(port=PORT):

@@ -3,12 +3,13 @@
 import signal
 
 from tools import paths, registry
+from tools.ending import Ending
 from tools.processes import Child
 
 BAD_INPUT = 2  # exit code of both programs, as of the scripts, for what the user gave
 
 
-class PairFailed(Exception):
+class PairFailed(Ending):
     """One of the two ended when it should not have; the text tells which, and shows its last words."""
 
     def __init__(self, child):

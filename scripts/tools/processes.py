@@ -4,6 +4,8 @@ import ctypes
 import signal
 import subprocess
 
+from tools.ending import Ending
+
 PR_SET_PDEATHSIG = 1
 GRACE_S = 10.0  # to end cleanly after a signal, before the next, harder one
 LOG_TAIL = 15  # lines
@@ -11,11 +13,11 @@ LOG_TAIL = 15  # lines
 _libc = ctypes.CDLL(None, use_errno=True)
 
 
-class Interrupted(Exception):
+class Interrupted(Ending):
     """The user, or the system, asked this process to end."""
 
     def __init__(self, signum):
-        super().__init__(signal.Signals(signum).name)
+        super().__init__()  # who asked knows why
         self.exit_code = 128 + signum
 
 

@@ -3,10 +3,10 @@
 import argparse
 import json
 import shutil
-import sys
 from itertools import groupby
 
 from tools import paths, runfolder
+from tools.ending import run_script
 from tools.manifest import SHARES
 from tools.progress import clock
 from tools.summary import summarise
@@ -129,15 +129,10 @@ def main():
     parser = argparse.ArgumentParser(prog="scripts/results", description="Writes docs/results.md from run folders.")
     parser.add_argument("runs", metavar="RUN", nargs="+", help="run folder that has finished")
     args = parser.parse_args()
-    try:
-        text = document([Run(path) for path in args.runs])
-    except runfolder.InputError as error:
-        print(error, file=sys.stderr)
-        return 2
-    (DOCS / "results.md").write_text(text)
+    (DOCS / "results.md").write_text(document([Run(path) for path in args.runs]))
     print(paths.shown(DOCS / "results.md"))
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_script(main)

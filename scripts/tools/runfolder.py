@@ -9,10 +9,13 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 
 from tools import paths
+from tools.ending import Ending
 
 
-class InputError(Exception):
+class InputError(Ending):
     """Something the user gave is wrong; nothing has been started."""
+
+    exit_code = 2
 
 
 @dataclass

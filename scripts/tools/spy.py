@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 from tools import network, paths, registry
+from tools.ending import run_script
 from tools.runfolder import InputError
 
 
@@ -34,20 +35,16 @@ def find_pair(run):
 
 def main():
     args = parse_arguments()
-    try:
-        pair = find_pair(args.run)
-        if args.text:
-            command = [sys.executable, "-m", "tools.spy_text", pair["url"]]
-        else:
-            from tools.spy_window import window_command
-            command = window_command(pair["url"])
-    except InputError as error:
-        print(error, file=sys.stderr)
-        return 2
+    pair = find_pair(args.run)
+    if args.text:
+        command = [sys.executable, "-m", "tools.spy_text", pair["url"]]
+    else:
+        from tools.spy_window import window_command
+        command = window_command(pair["url"])
     print(f"watching {paths.shown(pair['run'])}", file=sys.stderr, flush=True)
     command = [*network.join_prefix(pair["pid"]), *command]
     os.execvp(command[0], command)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_script(main)

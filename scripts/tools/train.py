@@ -6,6 +6,7 @@ import time
 from pathlib import Path
 
 from tools import network, paths, runfolder
+from tools.ending import run_script
 from tools.manifest import Part, begin_manifest, write_manifest
 from tools.pair import Pair, PairFailed
 from tools.processes import Interrupted, raise_on_signals
@@ -71,19 +72,10 @@ def train(folder, url, progress, resume):
 
 def main():
     args = parse_arguments()
-    try:
-        url = network.enter(args.network)
-        raise_on_signals()
-        folder = resumed_folder(args) if args.resume else new_folder(args)
-        part = Part(folder)
-    except Interrupted as interrupted:
-        return interrupted.exit_code
-    except runfolder.InputError as error:
-        print(error, file=sys.stderr)
-        return 2
-    except network.NetworkError as error:
-        print(f"network: {error}", file=sys.stderr)
-        return 1
+    url = network.enter(args.network)
+    raise_on_signals()
+    folder = resumed_folder(args) if args.resume else new_folder(args)
+    part = Part(folder)
     print(f"training in {paths.shown(folder.path)}", file=sys.stderr)
     total = int(folder.settings()["learning"]["episodes"])
     progress = Progress(total, done=folder.newest_checkpoint() if args.resume else 0, quiet=args.quiet)
@@ -118,4 +110,4 @@ def draw(folder):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_script(main)
