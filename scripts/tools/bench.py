@@ -11,7 +11,7 @@ import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from tools import bench_numpy, network, paths, runfolder
+from tools import bench_numpy, bench_simulator, network, paths, runfolder
 
 PROGRAMS = paths.BUILD / "bench"
 ROUNDS = 5  # all that is compared with each other is measured in turn, this often
@@ -143,7 +143,8 @@ def main():
     args = parse_arguments()
     try:
         url = network.enter(args.network)
-        figures = [*decision(), *simulator_step(), *lockstep_round_trip(url), *training_run()]
+        engines = [Figure(**figure) for figure in bench_simulator.measure()]
+        figures = [*decision(), *simulator_step(), *engines, *lockstep_round_trip(url), *training_run()]
     except network.NetworkError as error:
         print(f"network: {error}", file=sys.stderr)
         return 1
