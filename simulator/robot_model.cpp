@@ -161,6 +161,9 @@ void Reader::merge_inertia(const urdf::Link &link, Body &body, const Eigen::Isom
         refuse(element, "<inertia> must be positive definite");
     }
     const Eigen::Isometry3d pose = frame * to_eigen(inertial.origin);
+    if (!pose.matrix().allFinite()) {
+        refuse(element, "<origin> of <inertial> must be finite");
+    }
     const double mass = body.mass + inertial.mass;
     const Eigen::Vector3d centre = (body.mass * body.centre + inertial.mass * pose.translation()) / mass;
     const auto about = [&centre](double m, const Eigen::Vector3d &at) -> Eigen::Matrix3d {  // parallel axes
@@ -177,9 +180,15 @@ void Reader::merge_inertia(const urdf::Link &link, Body &body, const Eigen::Isom
 void Reader::merge_collisions(const urdf::Link &link, Body &body, const Eigen::Isometry3d &frame) const {
     for (const urdf::CollisionSharedPtr &collision : link.collision_array) {
         const Eigen::Isometry3d pose = frame * to_eigen(collision->origin);
-        if (const auto *sphere = dynamic_cast<const urdf::Sphere *>(collision->geometry.get())) {
+        const auto *sphere = dynamic_cast<const urdf::Sphere *>(collision->geometry.get());
+        const auto *box = dynamic_cast<const urdf::Box *>(collision->geometry.get());
+        const double least = sphere != nullptr ? sphere->radius : box != nullptr ? to_eigen(box->dim).minCoeff() : 0.0;
+        if (!pose.matrix().allFinite() || !(least >= 0) || !std::isfinite(least)) {
+            refuse("<link name=\"" + link.name + "\">", "<collision> must be finite and of no negative size");
+        }
+        if (sphere != nullptr) {
             body.balls.push_back({pose.translation(), sphere->radius});
-        } else if (const auto *box = dynamic_cast<const urdf::Box *>(collision->geometry.get())) {
+        } else if (box != nullptr) {
             for (int corner = 0; corner < 8; corner++) {
                 const Eigen::Vector3d sign((corner & 1) - 0.5, (corner >> 1 & 1) - 0.5, (corner >> 2 & 1) - 0.5);
                 body.balls.push_back({pose * sign.cwiseProduct(to_eigen(box->dim)), 0.0});
@@ -197,6 +206,9 @@ void Reader::merge(const urdf::LinkConstSharedPtr &link, int body, const Eigen::
     links_[link->name] = {body, frame};
     for (const urdf::JointSharedPtr &joint : link->child_joints) {
         const Eigen::Isometry3d child = frame * to_eigen(joint->parent_to_joint_origin_transform);
+        if (!child.matrix().allFinite()) {
+            refuse("<joint name=\"" + joint->name + "\">", "<origin> must be finite");
+        }
         if (joint->type == urdf::Joint::FIXED) {
             merge(urdf_->getLink(joint->child_link_name), body, child);
         } else {

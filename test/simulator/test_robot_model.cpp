@@ -179,6 +179,26 @@ TEST(RobotModel, RefusesSingleCrawler) {
 TEST(RobotModel, RefusesTipOnUnknownLink) {
     expect_refusal("<tip link=\"arm\"", "<tip link=\"hand\"", "link hand is not in the file");
 }
+TEST(RobotModel, RefusesCollisionShapesOfNegativeSize) {
+    expect_refusal("<sphere radius=\"0.08\"/>", "<sphere radius=\"-0.08\"/>", "<link name=\"boom\">");
+}
+TEST(RobotModel, RefusesJointsThatAreNowhere) {
+    expect_refusal("<origin xyz=\"0 0 0.50\"/>", "<origin xyz=\"0 0 inf\"/>", "swing");
+}
+TEST(RobotModel, RefusesCentresOfMassThatAreNowhere) {
+    expect_refusal("<origin xyz=\"-0.10 0 0.35\"/>", "<origin xyz=\"-0.10 0 inf\"/>", "upper_body");
+}
+// All of it is as it should be, but nothing can be computed with it.
+TEST(RobotModel, RobotThatCannotBeSimulatedIsRefusedByTheWorld) {
+    const Altered altered("<mass value=\"350\"/>", "<mass value=\"1e200\"/>");
+    const RobotModel model = read_robot(altered.path());
+    try {
+        const World world(model, laboratory::left_locked());
+        FAIL() << "was accepted";
+    } catch (const std::runtime_error &error) {
+        EXPECT_NE(std::string(error.what()).find("robot crawler"), std::string::npos) << error.what();
+    }
+}
 TEST(RobotModel, RefusesCollisionShapesItCannotUse) {
     expect_refusal("<sphere radius=\"0.08\"/>", "<cylinder radius=\"0.08\" length=\"1\"/>", "<link name=\"boom\">");
 }
