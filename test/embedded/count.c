@@ -1,4 +1,4 @@
-/* Counts instructions and stack of decisions on the emulated board, and fails beyond the limits promised.
+/* Counts instructions and stack of decisions on the emulated board, and fails beyond limits.
  *
  * Under `qemu -icount shift=0` an instruction takes 1 ns of virtual time, and SysTick counts the board's clock in
  * virtual time. That this holds is checked with a loop of known length. On a real board the same program counts clock
