@@ -14,7 +14,7 @@ from tools.validation.statics import GRAVITY, Machine
 ARM_STIFFNESS = 1e6  # of the arm's servos [N m/rad]
 ARM_DAMPING = 1e5  # [N m s/rad]
 
-# MuJoCo's own defaults, and those its documentation recommends where friction matters.
+# MuJoCo's own defaults, and a round cone with stiffer friction.
 DEFAULTS = {"cone": "pyramidal", "impratio": 1}
 ELLIPTIC = {"cone": "elliptic", "impratio": 10}
 
