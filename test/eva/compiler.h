@@ -1,0 +1,6 @@
+/* What gcc knows and Frama-C does not. */
+#include <math.h>
+#define __builtin_sqrtf sqrtf
+#define __builtin_inff() INFINITY
+#define __builtin_nanf(text) NAN
+#define _Alignas(bytes)
