@@ -12,6 +12,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from tools import bench_numpy, bench_simulator, network, paths, runfolder
+from tools.ending import Ending, run_script
 
 PROGRAMS = paths.BUILD / "bench"
 ROUNDS = 5  # all that is compared with each other is measured in turn, this often
@@ -22,7 +23,7 @@ RIVALS = {"plain_single": "plain C loop, float", "plain_double": "plain C loop, 
 LEAST_AGREEMENT = 0.98  # share of equal actions; rounding may turn one, and with it those that follow
 
 
-class BenchFailed(Exception):
+class BenchFailed(Ending):
     """A program failed; the text tells which."""
 
 
@@ -141,16 +142,9 @@ def parse_arguments():
 
 def main():
     args = parse_arguments()
-    try:
-        url = network.enter(args.network)
-        engines = [Figure(**figure) for figure in bench_simulator.measure()]
-        figures = [*decision(), *simulator_step(), *engines, *lockstep_round_trip(url), *training_run()]
-    except network.NetworkError as error:
-        print(f"network: {error}", file=sys.stderr)
-        return 1
-    except BenchFailed as failure:
-        print(failure, file=sys.stderr)
-        return 1
+    url = network.enter(args.network)
+    engines = [Figure(**figure) for figure in bench_simulator.measure()]
+    figures = [*decision(), *simulator_step(), *engines, *lockstep_round_trip(url), *training_run()]
     print(table(figures))
     if args.json:
         args.json.write_text(json.dumps([figure.as_dict() for figure in figures], indent=2) + "\n")
@@ -158,4 +152,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_script(main)
