@@ -3,6 +3,7 @@
 #define LIMPHOME_LIMPHOME_H
 
 #include "limphome/action.h"
+#include "limphome/action_values.h"
 #include "limphome/boltzmann.h"
 #include "limphome/capacity.h"
 #include "limphome/controller.h"
