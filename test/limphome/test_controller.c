@@ -506,6 +506,8 @@ START_TEST(bad_checkpoints_change_nothing) {
     ck_assert_int_eq(lh_controller_restore(&controller, &small, random_state, 1), LH_ERROR_NETWORK);
     ck_assert_int_eq(lh_controller_restore(&controller, &good, zeros, 1), LH_ERROR_RANDOM_STATE);
     ck_assert_mem_eq(&controller, &other, sizeof controller);
+    ck_assert_int_eq(lh_controller_restore(&controller, &good, random_state, 1000000000), LH_OK);
+    ck_assert_int_eq(lh_controller_restore(&controller, &good, random_state, 1000000001), LH_ERROR_EPISODE);
     ck_assert_int_eq(lh_controller_restore(&controller, &good, random_state, 51), LH_OK);
     ck_assert_int_eq(step_at(&controller, 0.0f, 0.0f).episode, 51);
 }

@@ -40,6 +40,13 @@ START_TEST(bad_fields_are_named) {
 }
 END_TEST
 
+START_TEST(a_term_may_be_left_out) {
+    lh_reward_config config = lh_reward_config_default();
+    config.forward = config.sideways = config.turn = config.goal = config.stability = config.tumble = 0.0f;
+    ck_assert_int_eq(lh_reward_config_validate(&config), LH_OK);
+}
+END_TEST
+
 START_TEST(motion_against_reference) {
     lh_reward_config config = lh_reward_config_default();
     for (int32_t k = 0; k < COUNT(motion_reward); ++k) {
@@ -100,6 +107,7 @@ Suite *suite(void) {
     TCase *t = tcase_create("rewards (5)-(9)(12)");
     tcase_add_test(t, defaults_are_those_of_table_2);
     tcase_add_test(t, bad_fields_are_named);
+    tcase_add_test(t, a_term_may_be_left_out);
     tcase_add_test(t, motion_against_reference);
     tcase_add_test(t, motion_by_hand);
     tcase_add_test(t, goal_falls_with_the_offset);
