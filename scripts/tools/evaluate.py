@@ -4,7 +4,6 @@ import argparse
 import json
 import shutil
 import sys
-import time
 
 from tools import network, runfolder
 from tools.ending import run_script
@@ -14,7 +13,6 @@ from tools.progress import Progress
 from tools.summary import summarise, table
 
 EPISODES = 50
-POLL_S = 0.05
 
 
 def parse_arguments():
@@ -40,15 +38,7 @@ def evaluation_folder(trained, episodes):
 def evaluate(folder, policy, url, episodes):
     tail = runfolder.EpisodeTail(folder.episodes)
     with Pair(folder, url, ["--evaluate", policy]) as pair:
-        progress = Progress(episodes, quiet=not sys.stderr.isatty())
-        try:
-            while not pair.finished():
-                progress.update(tail.read_new())
-                time.sleep(POLL_S)
-            pair.end()
-        finally:
-            progress.update(tail.read_new())
-            progress.close()
+        pair.run(tail, Progress(episodes, quiet=not sys.stderr.isatty()))
     return summarise(folder.read_episodes())
 
 

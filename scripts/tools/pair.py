@@ -1,11 +1,13 @@
 """Simulator and controller as two processes on one network, from start to clean end."""
 
 import signal
+import time
 
 from tools import paths, registry
 from tools.ending import Ending
 from tools.processes import Child
 
+POLL_S = 0.05
 BAD_INPUT = 2  # exit code of both programs, as of the scripts, for what the user gave
 
 
@@ -57,6 +59,17 @@ class Pair:
             if child.exit_code() is not None:
                 raise PairFailed(child)
         return False
+
+    def run(self, tail, progress):
+        """Waits for all episodes, showing those that `tail` reads on `progress`; then ends the simulator."""
+        try:
+            while not self.finished():
+                progress.update(tail.read_new())
+                time.sleep(POLL_S)
+            self.end()
+        finally:
+            progress.update(tail.read_new())
+            progress.close()
 
     def end(self):
         """After the controller has finished: ends the simulator, which must go without complaint."""

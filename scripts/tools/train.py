@@ -2,7 +2,6 @@
 
 import argparse
 import sys
-import time
 from pathlib import Path
 
 from tools import network, paths, runfolder
@@ -11,8 +10,6 @@ from tools.manifest import Part, begin_manifest, write_manifest
 from tools.pair import Pair, PairFailed
 from tools.processes import Interrupted, raise_on_signals
 from tools.progress import Progress, clock
-
-POLL_S = 0.1
 
 
 def parse_arguments():
@@ -60,14 +57,7 @@ def train(folder, url, progress, resume):
     tail = runfolder.EpisodeTail(folder.episodes)
     tail.read_new()  # of a resumed run, told before
     with Pair(folder, url, ["--resume"] if resume else []) as pair:
-        try:
-            while not pair.finished():
-                progress.update(tail.read_new())
-                time.sleep(POLL_S)
-            pair.end()
-        finally:
-            progress.update(tail.read_new())
-            progress.close()
+        pair.run(tail, progress)
 
 
 def main():
