@@ -91,7 +91,7 @@ int32_t lh_boltzmann_select(const float *q, int32_t count, float temperature, lh
     float below = 0.0f;
     int32_t first = 0;
     float sum = likelihoods(q, count, temperature, q_max, likelihood);
-    while (below + sum <= target && first + CHUNK < count) {
+    while (first + CHUNK < count && below + sum <= target) {
         first += CHUNK;
         below += sum;
         sum = likelihoods(&q[first], count - first, temperature, q_max, likelihood);

@@ -182,6 +182,40 @@ START_TEST(draws_at_the_edges_of_the_interval) {
 }
 END_TEST
 
+/* The library computes several values at a time; here the cumulative distribution is summed up one by one. */
+START_TEST(draws_agree_with_the_cumulative_distribution) {
+    static const int32_t counts[] = {1, 2, 8, 31, 32, 33, 63, 64, 65, 81, 243};
+    for (int32_t k = 0; k < COUNT(counts); ++k) {
+        const int32_t count = counts[k];
+        float q[243];
+        double likelihood[243];
+        double total = 0.0;
+        lh_random random;
+        lh_random_init(&random, (uint64_t)count);
+        for (int32_t i = 0; i < count; ++i) {
+            q[i] = lh_random_uniform(&random);
+            likelihood[i] = exp(q[i] / 0.5);
+            total += likelihood[i];
+        }
+        int32_t last = 0; /* how often the last was drawn */
+        for (int32_t draw = 0; draw < 5000; ++draw) {
+            lh_random same = random;
+            const double target = lh_random_uniform(&same) * total;
+            const int32_t a = lh_boltzmann_select(q, count, 0.5f, &random, NULL);
+            ck_assert(a >= 0 && a < count);
+            double below = 0.0;
+            for (int32_t i = 0; i < a; ++i) {
+                below += likelihood[i];
+            }
+            ck_assert_double_ge(target, below - 1e-5 * total);
+            ck_assert_double_le(target, below + likelihood[a] + 1e-5 * total);
+            last += a == count - 1;
+        }
+        ck_assert_int_gt(last, 0);
+    }
+}
+END_TEST
+
 Suite *suite(void) {
     Suite *s = suite_create("boltzmann");
     TCase *t = tcase_create("temperature (4)");
@@ -200,6 +234,7 @@ Suite *suite(void) {
     tcase_add_test(t, selection_uses_one_random_number);
     tcase_add_test(t, frequencies_agree_with_probability);
     tcase_add_test(t, draws_at_the_edges_of_the_interval);
+    tcase_add_test(t, draws_agree_with_the_cumulative_distribution);
     suite_add_tcase(s, t);
     return s;
 }
