@@ -16,8 +16,12 @@ extern "C" {
 
 /* Room to compute in; nothing in it lasts. */
 typedef struct lh_action_scratch {
-    float precision[LH_UNIT_SLOTS];                                  /* 1 / sigma_j^2 */
-    float factor[LH_MAX_ACTUATORS][LH_ACTION_LEVELS][LH_UNIT_SLOTS]; /* f_jk(level) */
+    float precision[LH_UNIT_SLOTS];                                 /* 1 / sigma_j^2 */
+    float quarter[LH_UNIT_SLOTS];                                   /* e^(-1/4 sigma_j^2) */
+    float square[LH_UNIT_SLOTS];                                    /* least ||x - mu_j||^2 over the joint actions */
+    float factor[LH_FACTOR_SLOTS][LH_ACTION_LEVELS][LH_UNIT_SLOTS]; /* f_jk(level) over that of the nearest level */
+    float row[LH_ACTION_LEVELS][LH_UNIT_SLOTS];                     /* w_j phi_j of all other actuators, f_j2(level) */
+    float column[LH_MAX_UNITS][LH_COLUMN_SLOTS];                    /* f_j0(level) f_j1(level), unit by unit */
 } lh_action_scratch;
 
 /* Computes q[3^num_controlled] by (13)(14), in the order of action.h, at states[num_states]; the network has

@@ -49,8 +49,8 @@ int32_t lh_boltzmann_greedy(const float *q, int32_t count) {
     return best;
 }
 
-/* likelihood[CHUNK] = exp((q - q_max) / T), the numerators of (3) over exp(q_max / T), for the first of q[count];
- * 0 from q[count] on. Returns their sum. */
+/* likelihood[CHUNK] = exp((q - q_max) / T), the numerators of (3) over exp(q_max / T), for the first of q[count]; 0
+ * where it is below 1e-38, and from q[count] on. Returns their sum. */
 static float likelihoods(const float *q, int32_t count, float temperature, float q_max, float *restrict likelihood) {
     float rest[CHUNK];
     if (count < CHUNK) {
@@ -60,7 +60,8 @@ static float likelihoods(const float *q, int32_t count, float temperature, float
         q = rest;
     }
     for (int32_t i = 0; i < CHUNK; ++i) {
-        likelihood[i] = lh_exponential((q[i] - q_max) / temperature);
+        float exponent = (q_max - q[i]) / temperature;
+        likelihood[i] = exponent > LH_DECAY_END ? 0.0f : lh_decay(exponent);
     }
     float sum[LH_LANES] = {0.0f};
     for (int32_t i = 0; i < CHUNK; i += LH_LANES) {

@@ -1,12 +1,10 @@
 /* Compile-time capacities. Every struct of the library has its full size by them; nothing is allocated.
  * Define any of them on the command line to make the library smaller or larger; all sources and callers must agree.
  *
- * At most so many bytes, with S = LH_UNIT_SLOTS, A = LH_MAX_ACTUATORS, L = LH_MAX_LINKS and P = LH_MAX_SUPPORTS:
- *     lh_network         8 + 4 S (2 A + 4)
- *     lh_action_scratch  4 S (3 A + 1)
- *     lh_learner         lh_network + lh_action_scratch + 4 LH_MAX_ACTIONS + 88
- *     lh_controller      lh_learner + 24 A + 64 L + 20 P + 216
- * and on the stack, where lh_controller_step takes the most, about 900 + 4 S (A + 1).
+ * At most so many bytes, with S = LH_UNIT_SLOTS, U = LH_MAX_UNITS, C = LH_COLUMN_SLOTS, A = LH_MAX_ACTUATORS, 3 or
+ * more, L = LH_MAX_LINKS and P = LH_MAX_SUPPORTS: lh_network         8 + 4 S (2 A + 4) lh_action_scratch  4 S (3 A + 6)
+ * + 4 U C lh_learner         lh_network + lh_action_scratch + 4 LH_MAX_ACTIONS + 88 lh_controller      lh_learner + 24
+ * A + 64 L + 20 P + 216 and on the stack, where lh_controller_step takes the most, about 1300 + 4 S (A - 2).
  *
  * The time of a decision grows with S and the number of joint actions. */
 #ifndef LIMPHOME_CAPACITY_H
@@ -36,5 +34,14 @@
  * vector code. Part of the definition of the results, so equal on every platform. */
 #define LH_LANES 8
 #define LH_UNIT_SLOTS ((LH_MAX_UNITS + LH_LANES - 1) / LH_LANES * LH_LANES)
+
+/* Joint actions are computed in blocks of three actuators (action_values.c), also where there are fewer. */
+#define LH_FACTOR_SLOTS (LH_MAX_ACTUATORS < 3 ? 3 : LH_MAX_ACTUATORS)
+/* The nine columns of a block, with room for whole vectors on processors that have them. */
+#if defined(__x86_64__) || defined(__aarch64__)
+#define LH_COLUMN_SLOTS 16
+#else
+#define LH_COLUMN_SLOTS 9
+#endif
 
 #endif

@@ -95,20 +95,22 @@ lh_error lh_network_validate(const lh_network *network, const lh_network_config 
 
 void lh_network_precisions(const lh_network *network, float *precision) {
     const float *width = network->width;
-    for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
+    int32_t end = lh_end_of_units(network->units);
+    for (int32_t j = 0; j < end; ++j) {
         precision[j] = width[j] > 0.0f ? 1.0f / (width[j] * width[j]) : 0.0f;
     }
 }
 
 /* distance[j] = ||x - mu_j||^2 */
-static void measure(const lh_network *restrict network, const float *restrict x, float *restrict distance) {
-    for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
+static void measure(const lh_network *restrict network, const float *restrict x, int32_t end,
+                    float *restrict distance) {
+    for (int32_t j = 0; j < end; ++j) {
         distance[j] = 0.0f;
     }
     for (int32_t i = 0; i < network->inputs; ++i) {
         const float *centre = network->centre[i];
         float input = x[i];
-        for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
+        for (int32_t j = 0; j < end; ++j) {
             float difference = input - centre[j];
             distance[j] += difference * difference;
         }
@@ -116,31 +118,43 @@ static void measure(const lh_network *restrict network, const float *restrict x,
 }
 
 float lh_network_value(const lh_network *network, const float *x, lh_activation *at) {
+    int32_t end = lh_end_of_units(network->units);
     lh_network_precisions(network, at->precision);
-    measure(network, x, at->distance);
-    for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
-        float phi = lh_exponential(-at->distance[j] * at->precision[j]);
-        at->phi[j] = at->precision[j] > 0.0f ? phi : 0.0f;
+    measure(network, x, end, at->distance);
+    for (int32_t j = 0; j < end; ++j) {
+        at->phi[j] = lh_decay(at->distance[j] * at->precision[j]);
     }
-    return lh_dot(network->weight, at->phi);
+    for (int32_t j = network->units; j < LH_UNIT_SLOTS; ++j) {
+        at->phi[j] = 0.0f;
+    }
+    return lh_dot(network->weight, at->phi, network->units);
 }
 
-/* `updated`, or the limit it would pass; *held counts how many did. */
-static inline float limited(float updated, float low, float high, int32_t *held) {
-    float kept = updated < low ? low : updated;
-    kept = kept > high ? high : kept;
-    *held += kept != updated;
-    return kept;
+static inline bool is_beyond(float x, float limit) {
+    return __builtin_fabsf(x) > limit;
+}
+
+/* Brings values that are beyond -limit or limit back to it. Seldom needed, so not part of the loops that learn. */
+static void hold(float *values, int32_t end, float limit) {
+    for (int32_t j = 0; j < end; ++j) {
+        if (is_beyond(values[j], limit)) {
+            values[j] = values[j] < 0.0f ? -limit : limit;
+        }
+    }
 }
 
 /* (19) */
-static int32_t learn_weights(float *restrict weight, const lh_network_config *config, const float *restrict phi,
-                             float step) {
+static int32_t learn_weights(float *restrict weight, const lh_network_config *config, int32_t end,
+                             const float *restrict phi, float step) {
     int32_t held = 0;
     float rate = config->rate_weight * step;
     float limit = config->weight_limit;
-    for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
-        weight[j] = limited(weight[j] + rate * phi[j], -limit, limit, &held);
+    for (int32_t j = 0; j < end; ++j) {
+        weight[j] += rate * phi[j];
+        held += is_beyond(weight[j], limit);
+    }
+    if (held > 0) {
+        hold(weight, end, limit);
     }
     return held;
 }
@@ -151,17 +165,23 @@ static int32_t learn_widths(float *restrict width, const lh_network_config *conf
     int32_t held = 0;
     for (int32_t j = 0; j < units; ++j) {
         float updated = width[j] + config->rate_width * pull[j] * distance[j] / width[j];
-        width[j] = limited(updated, config->width_floor, LH_WIDTH_LIMIT, &held);
+        float kept = updated < config->width_floor ? config->width_floor : updated;
+        kept = kept > LH_WIDTH_LIMIT ? LH_WIDTH_LIMIT : kept;
+        held += kept != updated;
+        width[j] = kept;
     }
     return held;
 }
 
 /* (21) for one input */
-static int32_t learn_centres(float *restrict centre, float rate, const float *restrict pull, float input) {
+static int32_t learn_centres(float *restrict centre, int32_t end, const float *restrict pull, float input) {
     int32_t held = 0;
-    for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
-        float updated = centre[j] + rate * pull[j] * (input - centre[j]);
-        centre[j] = limited(updated, -LH_CENTRE_LIMIT, LH_CENTRE_LIMIT, &held);
+    for (int32_t j = 0; j < end; ++j) {
+        centre[j] += pull[j] * (input - centre[j]);
+        held += is_beyond(centre[j], LH_CENTRE_LIMIT);
+    }
+    if (held > 0) {
+        hold(centre, end, LH_CENTRE_LIMIT);
     }
     return held;
 }
@@ -176,13 +196,17 @@ int32_t lh_network_learn(lh_network *network, const lh_network_config *config, c
     }
 
     float pull[LH_UNIT_SLOTS]; /* step w_j phi_j / sigma_j^2, what (20) and (21) share */
-    for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
+    int32_t end = lh_end_of_units(network->units);
+    for (int32_t j = 0; j < end; ++j) {
         pull[j] = factor * network->weight[j] * at->phi[j] * at->precision[j];
     }
-    int32_t held = learn_weights(network->weight, config, at->phi, step);
+    int32_t held = learn_weights(network->weight, config, end, at->phi, step);
     held += learn_widths(network->width, config, network->units, pull, at->distance);
+    for (int32_t j = 0; j < end; ++j) {
+        pull[j] *= config->rate_centre;
+    }
     for (int32_t i = 0; i < network->inputs; ++i) {
-        held += learn_centres(network->centre[i], config->rate_centre, pull, x[i]);
+        held += learn_centres(network->centre[i], end, pull, x[i]);
     }
     return held;
 }

@@ -29,11 +29,11 @@ static recorded_decision record(const lh_decision *d) {
     return r;
 }
 
-/* All but the configuration, whose padding has no definite value. */
+/* All but the configuration, whose padding has no definite value, and the scratch, whose layout may differ. */
 static bool save_learner(const lh_learner *learner) {
     const size_t begin = offsetof(lh_learner, num_states);
     const int file = platform_open("learner.bin", true);
-    return platform_write(file, (const char *)learner + begin, sizeof *learner - begin);
+    return platform_write(file, (const char *)learner + begin, offsetof(lh_learner, scratch) - begin);
 }
 
 int main(void) {

@@ -11,7 +11,7 @@ enum {
     S = LH_UNIT_SLOTS,
     A = LH_MAX_ACTUATORS,
     NETWORK = 8 + 4 * S * (2 * A + 4),
-    SCRATCH = 4 * S * (3 * A + 1),
+    SCRATCH = 4 * S * (3 * A + 6) + 4 * LH_MAX_UNITS * LH_COLUMN_SLOTS,
     LEARNER = NETWORK + SCRATCH + 4 * LH_MAX_ACTIONS + 88,
     CONTROLLER = LEARNER + 24 * A + 64 * LH_MAX_LINKS + 20 * LH_MAX_SUPPORTS + 216
 };
