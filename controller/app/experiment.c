@@ -87,7 +87,11 @@ static bool begin_learner(experiment *e, const limphome_robot_state_t *state) {
         return false;
     }
     if (e->resuming) {
-        e->controller.learner.clamped = e->checkpoint.clamped;
+        e->controller.learner.held = (lh_held){
+            .weights = (uint64_t)e->checkpoint.clamped_weights,
+            .widths = (uint64_t)e->checkpoint.clamped_widths,
+            .centres = (uint64_t)e->checkpoint.clamped_centres,
+        };
     }
     e->learner_ready = true;
     return true;
@@ -104,7 +108,10 @@ static limphome_checkpoint_t make_checkpoint(const experiment *e) {
     memset(&checkpoint, 0, sizeof checkpoint);
     checkpoint.policy = convert_policy(&e->controller, e->finished, e->utime);
     memcpy(checkpoint.random_state, e->controller.learner.random.s, sizeof checkpoint.random_state);
-    checkpoint.clamped = e->controller.learner.clamped;
+    const lh_held *held = &e->controller.learner.held;
+    checkpoint.clamped_weights = (int64_t)held->weights;
+    checkpoint.clamped_widths = (int64_t)held->widths;
+    checkpoint.clamped_centres = (int64_t)held->centres;
     checkpoint.settings_hash = e->hash;
     return checkpoint;
 }
@@ -191,6 +198,17 @@ static void handle_state(experiment *e, const limphome_robot_state_t *state) {
     }
 }
 
+static void count_clamped(const lh_controller *controller, limphome_status_t *status) {
+    status->clamped_inputs = (int64_t)controller->clamped.inputs;
+    status->clamped_temperatures = (int64_t)controller->clamped.temperatures;
+    status->clamped_margins = (int64_t)controller->clamped.margins;
+    status->clamped_weights = (int64_t)controller->learner.held.weights;
+    status->clamped_widths = (int64_t)controller->learner.held.widths;
+    status->clamped_centres = (int64_t)controller->learner.held.centres;
+    status->clamped = status->clamped_inputs + status->clamped_temperatures + status->clamped_margins +
+                      status->clamped_weights + status->clamped_widths + status->clamped_centres;
+}
+
 static void send_status(experiment *e, int8_t condition) {
     limphome_status_t status = e->bus.counts;
     status.utime = bus_now_us();
@@ -204,7 +222,7 @@ static void send_status(experiment *e, int8_t condition) {
     status.episodes = e->finished;
     status.rejected_session = e->stale;
     status.duplicates += e->repeated;
-    status.clamped = e->controller.clamped + e->controller.learner.clamped;
+    count_clamped(&e->controller, &status);
     bus_send_status(&e->bus, &status);
 }
 

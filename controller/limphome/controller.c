@@ -186,7 +186,7 @@ static void finish_step(lh_controller *controller, const situation *now, lh_deci
     lh_outcome outcome = lh_episode_outcome(episode, &controller->config.episode, &now->pose, now->tilt);
     decision->stepped = true;
     decision->reward = rewards_of_step(controller, now, outcome);
-    controller->clamped += now->margin < LH_LEAST_MARGIN;
+    controller->clamped.margins += now->margin < LH_LEAST_MARGIN;
     add_reward(&episode->total, &decision->reward);
     if (controller->config.learn) {
         learn_from_step(controller, decision->inputs, outcome, decision);
@@ -211,7 +211,7 @@ static void describe(const lh_controller *controller, const situation *now, lh_d
 static void choose(lh_controller *controller, const situation *now, lh_decision *decision) {
     const lh_controlled *controlled = &controller->controlled;
     decision->temperature = temperature_of(controller);
-    controller->clamped += decision->temperature == controller->config.temperature_floor;
+    controller->clamped.temperatures += decision->temperature == controller->config.temperature_floor;
     lh_learner_evaluate(&controller->learner, decision->inputs);
     decision->choice = lh_learner_choose(&controller->learner, decision->temperature, controller->config.greedy);
 
@@ -240,7 +240,8 @@ lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh
     }
     *decision = (lh_decision){.stepped = false};
     situation now = assess(controller, state);
-    controller->clamped += lh_observation(&controller->robot, &controller->controlled, state, decision->inputs);
+    controller->clamped.inputs +=
+        (uint64_t)lh_observation(&controller->robot, &controller->controlled, state, decision->inputs);
 
     lh_episode *episode = &controller->episode;
     if (controller->acting) {

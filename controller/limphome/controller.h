@@ -81,6 +81,13 @@ typedef struct lh_decision {
     float velocity[LH_MAX_ACTUATORS]; /* [robot.num_actuators], m/s or rad/s; 0 where not controlled */
 } lh_decision;
 
+/* How often a limit acted. */
+typedef struct lh_clamped {
+    uint64_t inputs;       /* sensor values limited to their range */
+    uint64_t temperatures; /* decisions with the temperature at its floor */
+    uint64_t margins;      /* stability margins taken to be LH_LEAST_MARGIN */
+} lh_clamped;
+
 typedef struct lh_controller {
     lh_config config;
     lh_robot robot;
@@ -93,9 +100,7 @@ typedef struct lh_controller {
     int32_t action;                    /* chosen joint action */
     lh_pose2 pose;                     /* where it was chosen */
     float inputs[LH_MAX_STATE_INPUTS]; /* state inputs there */
-    /* sensor values limited to their range, temperatures to their floor and margins to LH_LEAST_MARGIN so far; what was
-     * limited in learning is counted in learner.clamped */
-    int64_t clamped;
+    lh_clamped clamped;                /* so far; what was held in learning is counted in learner.held */
 } lh_controller;
 
 /* The paper's values, learning, with Boltzmann selection. */

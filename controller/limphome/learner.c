@@ -76,7 +76,10 @@ float lh_learner_learn(lh_learner *learner, const float *states, int32_t action,
     float target = reward + (terminal ? 0.0f : learner->config.discount_rate * next_q_max);
     lh_activation at;
     float td_error = target - lh_network_value(&learner->network, x, &at);
-    learner->clamped +=
+    lh_held held =
         lh_network_learn(&learner->network, &learner->config.network, x, &at, learner->config.learning_rate, td_error);
+    learner->held.weights += held.weights;
+    learner->held.widths += held.widths;
+    learner->held.centres += held.centres;
     return td_error;
 }

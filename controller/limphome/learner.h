@@ -26,7 +26,7 @@ typedef struct lh_learner {
     int32_t num_actions; /* joint actions, 3^n */
     lh_network network;
     lh_random random;
-    int64_t clamped;         /* network parameters held at a limit so far */
+    lh_held held;            /* network parameters held at a limit so far */
     float q_max;             /* the largest of q */
     float q[LH_MAX_ACTIONS]; /* Q(s, a) of the newest state [num_actions] */
     lh_action_scratch scratch;

@@ -144,9 +144,9 @@ static void hold(float *values, int32_t end, float limit) {
 }
 
 /* (19) */
-static int32_t learn_weights(float *restrict weight, const lh_network_config *config, int32_t end,
-                             const float *restrict phi, float step) {
-    int32_t held = 0;
+static uint32_t learn_weights(float *restrict weight, const lh_network_config *config, int32_t end,
+                              const float *restrict phi, float step) {
+    uint32_t held = 0;
     float rate = config->rate_weight * step;
     float limit = config->weight_limit;
     for (int32_t j = 0; j < end; ++j) {
@@ -160,9 +160,9 @@ static int32_t learn_weights(float *restrict weight, const lh_network_config *co
 }
 
 /* (20) */
-static int32_t learn_widths(float *restrict width, const lh_network_config *config, int32_t units,
-                            const float *restrict pull, const float *restrict distance) {
-    int32_t held = 0;
+static uint32_t learn_widths(float *restrict width, const lh_network_config *config, int32_t units,
+                             const float *restrict pull, const float *restrict distance) {
+    uint32_t held = 0;
     for (int32_t j = 0; j < units; ++j) {
         float updated = width[j] + config->rate_width * pull[j] * distance[j] / width[j];
         float kept = updated < config->width_floor ? config->width_floor : updated;
@@ -174,8 +174,8 @@ static int32_t learn_widths(float *restrict width, const lh_network_config *conf
 }
 
 /* (21) for one input */
-static int32_t learn_centres(float *restrict centre, int32_t end, const float *restrict pull, float input) {
-    int32_t held = 0;
+static uint32_t learn_centres(float *restrict centre, int32_t end, const float *restrict pull, float input) {
+    uint32_t held = 0;
     for (int32_t j = 0; j < end; ++j) {
         centre[j] += pull[j] * (input - centre[j]);
         held += is_beyond(centre[j], LH_CENTRE_LIMIT);
@@ -186,13 +186,14 @@ static int32_t learn_centres(float *restrict centre, int32_t end, const float *r
     return held;
 }
 
-int32_t lh_network_learn(lh_network *network, const lh_network_config *config, const float *x, const lh_activation *at,
+lh_held lh_network_learn(lh_network *network, const lh_network_config *config, const float *x, const lh_activation *at,
                          float learning_rate, float td_error) {
     /* as printed, the change of y is alpha delta and (19)-(21) have alpha once more, but no factor 2 from the square */
     float step = learning_rate * td_error * (config->exact_gradient ? 1.0f : learning_rate);
     float factor = config->exact_gradient ? 2.0f * step : step;
     if (!lh_within(step, -LARGEST_STEP, LARGEST_STEP)) {
-        return network->units * (2 + network->inputs);
+        uint64_t units = (uint64_t)network->units;
+        return (lh_held){units, units, units * (uint64_t)network->inputs};
     }
 
     float pull[LH_UNIT_SLOTS]; /* step w_j phi_j / sigma_j^2, what (20) and (21) share */
@@ -200,13 +201,15 @@ int32_t lh_network_learn(lh_network *network, const lh_network_config *config, c
     for (int32_t j = 0; j < end; ++j) {
         pull[j] = factor * network->weight[j] * at->phi[j] * at->precision[j];
     }
-    int32_t held = learn_weights(network->weight, config, end, at->phi, step);
-    held += learn_widths(network->width, config, network->units, pull, at->distance);
+    lh_held held = {
+        .weights = learn_weights(network->weight, config, end, at->phi, step),
+        .widths = learn_widths(network->width, config, network->units, pull, at->distance),
+    };
     for (int32_t j = 0; j < end; ++j) {
         pull[j] *= config->rate_centre;
     }
     for (int32_t i = 0; i < network->inputs; ++i) {
-        held += learn_centres(network->centre[i], end, pull, x[i]);
+        held.centres += learn_centres(network->centre[i], end, pull, x[i]);
     }
     return held;
 }

@@ -70,11 +70,18 @@ float lh_network_value(const lh_network *network, const float *x, lh_activation 
 /* Fills precision[LH_UNIT_SLOTS] with 1 / sigma_j^2, and 0 beyond the last unit. */
 void lh_network_precisions(const lh_network *network, float *precision);
 
+/* How many parameters were held at a limit, or left as they were. */
+typedef struct lh_held {
+    uint64_t weights;
+    uint64_t widths;
+    uint64_t centres;
+} lh_held;
+
 /* One step of (19)-(21) towards y + alpha * delta at x[inputs]: `learning_rate` is alpha of (2), `td_error` delta of
  * (1), and *at is what lh_network_value gave at x. All three use the values from before the step. Parameters that would
  * leave their limits are held there; all are left as they are where y would change by more than 1e20 or is not finite.
  * Returns how many were held or left. */
-int32_t lh_network_learn(lh_network *network, const lh_network_config *config, const float *x, const lh_activation *at,
+lh_held lh_network_learn(lh_network *network, const lh_network_config *config, const float *x, const lh_activation *at,
                          float learning_rate, float td_error);
 
 #ifdef __cplusplus

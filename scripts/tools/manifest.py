@@ -58,7 +58,8 @@ def measures(plant, controller):
         "simulator_share": simulator_share,
         "controller_share": controller_share,
         # in lockstep one of the two works while the other waits; where both wait, a message is under way
-        "link_share": 1.0 - simulator_share - controller_share,
+        # the rest; nothing where the two work side by side more than both wait
+        "link_share": max(0.0, 1.0 - simulator_share - controller_share),
         "counters": {name: {counter: getattr(status, counter) for counter in COUNTERS}
                      for name, status in (("simulator", plant), ("controller", controller))},
     }
@@ -83,7 +84,8 @@ def totals(parts):
 
 SHARES = ("simulator_share", "controller_share", "link_share")  # of wall time
 COUNTERS = ("received", "rejected_malformed", "rejected_non_finite", "rejected_session", "rejected_sender",
-            "duplicates", "resent", "late", "clamped", "saturated", "faults")
+            "duplicates", "resent", "late", "clamped", "clamped_inputs", "clamped_temperatures", "clamped_margins",
+            "clamped_weights", "clamped_widths", "clamped_centres", "saturated", "faults")
 
 
 def begin_manifest(folder, config):

@@ -53,7 +53,6 @@ static void expect_sound(const lh_controller *controller, const lh_decision *dec
     }
     const lh_learner *learner = &controller->learner;
     FUZZ_EXPECT(lh_network_validate(&learner->network, &controller->config.learner.network) == LH_OK);
-    FUZZ_EXPECT(learner->clamped >= 0 && controller->clamped >= 0);
 }
 
 void fuzz_step(lh_controller *controller, const lh_state *state) {

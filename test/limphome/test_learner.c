@@ -50,6 +50,9 @@ START_TEST(sizes_must_go_together) {
     ck_assert_int_eq(lh_learner_init(&learner, &config, 3, LH_MAX_ACTUATORS + 1, 1), LH_ERROR_ACTUATORS);
     ck_assert_int_eq(lh_learner_init(&learner, &config, 2, 2, 1), LH_ERROR_INPUTS);
     ck_assert_int_eq(lh_learner_init(&learner, &config, -1, 6, 1), LH_ERROR_INPUTS);
+    config.network.inputs = 2; /* actions alone are enough */
+    static lh_learner stateless;
+    ck_assert_int_eq(lh_learner_init(&stateless, &config, 0, 2, 1), LH_OK);
     config.network.inputs = LH_MAX_STATE_INPUTS + 2; /* for too many states of one actuator */
     ck_assert_int_eq(lh_learner_init(&learner, &config, LH_MAX_STATE_INPUTS + 1, 1, 1), LH_ERROR_INPUTS);
     config.network.rate_width = -1.0f;
@@ -168,7 +171,7 @@ START_TEST(td_error_by_hand) {
     expect_near(lh_learner_learn(&learner, states, 1, 1.0f, 3.0f, true), -1.0, 1e-6);
     learner.network.weight[0] = 2.0f;
     expect_near(lh_learner_learn(&learner, states, 1, 1.0f, NAN, true), -1.0, 1e-6);
-    ck_assert_int_eq(learner.clamped, 0);
+    ck_assert_uint_eq(learner.held.weights + learner.held.widths + learner.held.centres, 0);
 }
 END_TEST
 
@@ -185,7 +188,7 @@ START_TEST(sequence_against_reference) {
     for (int32_t j = 0; j < LEARNER_UNITS; ++j) {
         expect_near(learner.network.weight[j], learner_weight[j], 5e-6);
     }
-    ck_assert_int_eq(learner.clamped, 0);
+    ck_assert_uint_eq(learner.held.weights + learner.held.widths + learner.held.centres, 0);
 }
 END_TEST
 
@@ -195,7 +198,13 @@ START_TEST(non_finite_reward_is_not_learned) {
     const lh_network before = learner.network;
     lh_learner_learn(&learner, learner_state[0], 0, NAN, 0.0f, false);
     ck_assert_mem_eq(&learner.network, &before, sizeof before);
-    ck_assert_int_eq(learner.clamped, LEARNER_UNITS * (2 + config.network.inputs));
+    ck_assert_uint_eq(learner.held.weights, LEARNER_UNITS);
+    ck_assert_uint_eq(learner.held.widths, LEARNER_UNITS);
+    ck_assert_uint_eq(learner.held.centres, LEARNER_UNITS * (uint64_t)config.network.inputs);
+    lh_learner_learn(&learner, learner_state[0], 0, NAN, 0.0f, false); /* they add up */
+    ck_assert_uint_eq(learner.held.weights, 2 * LEARNER_UNITS);
+    ck_assert_uint_eq(learner.held.widths, 2 * LEARNER_UNITS);
+    ck_assert_uint_eq(learner.held.centres, 2 * LEARNER_UNITS * (uint64_t)config.network.inputs);
 }
 END_TEST
 

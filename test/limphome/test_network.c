@@ -30,11 +30,17 @@ static float value(const lh_network *network, const float *x) {
     return lh_network_value(network, x, &at);
 }
 
-static int32_t learn(lh_network *network, const lh_network_config *config, const float *x, float learning_rate,
+static lh_held learn(lh_network *network, const lh_network_config *config, const float *x, float learning_rate,
                      float td_error) {
     lh_activation at;
     lh_network_value(network, x, &at);
     return lh_network_learn(network, config, x, &at, learning_rate, td_error);
+}
+
+static void expect_held(lh_held held, uint64_t weights, uint64_t widths, uint64_t centres) {
+    ck_assert_uint_eq(held.weights, weights);
+    ck_assert_uint_eq(held.widths, widths);
+    ck_assert_uint_eq(held.centres, centres);
 }
 
 START_TEST(defaults_are_those_of_table_2) {
@@ -131,7 +137,7 @@ static void expect_learned(bool exact, const double (*weight)[NETWORK_UNITS], co
     const lh_network before = reference_network();
     for (int32_t k = 0; k < COUNT(network_x); ++k) {
         lh_network network = before;
-        ck_assert_int_eq(learn(&network, &config, network_x[k], learn_alpha[k], learn_delta[k]), 0);
+        expect_held(learn(&network, &config, network_x[k], learn_alpha[k], learn_delta[k]), 0, 0, 0);
         for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
             expect_change(network.weight[j], weight[k][j], before.weight[j], fabs(weight[k][j] - before.weight[j]));
             expect_change(network.width[j], width[k][j], before.width[j], fabs(width[k][j] - before.width[j]));
@@ -171,14 +177,16 @@ START_TEST(width_stops_at_its_floor) {
     config.rate_width = 10.0f;
     lh_network network = reference_network();
     /* a negative error narrows the units of positive weight and widens the others */
-    ck_assert_int_gt(learn(&network, &config, network_x[0], 1.0f, -1000.0f), 0);
-    int32_t at_floor = 0;
+    const lh_held held = learn(&network, &config, network_x[0], 1.0f, -1000.0f);
+    uint64_t at_floor = 0, at_limit = 0;
     for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
         ck_assert_float_ge(network.width[j], config.width_floor);
         ck_assert_float_le(network.width[j], LH_WIDTH_LIMIT);
         at_floor += network.width[j] == config.width_floor;
+        at_limit += network.width[j] == LH_WIDTH_LIMIT;
     }
-    ck_assert_int_gt(at_floor, 0);
+    ck_assert_uint_gt(at_floor, 0);
+    ck_assert_uint_eq(held.widths, at_floor + at_limit);
     ck_assert_int_eq(lh_network_validate(&network, &config), LH_OK);
     ck_assert(isfinite(value(&network, network_x[0])));
 }
@@ -189,11 +197,11 @@ START_TEST(weight_stops_at_its_limit) {
     config.rate_width = config.rate_centre = 0.0f;
     config.weight_limit = 20.0f;
     lh_network network = reference_network();
-    ck_assert_int_eq(learn(&network, &config, network_x[0], 1.0f, 1e6f), NETWORK_UNITS);
+    expect_held(learn(&network, &config, network_x[0], 1.0f, 1e6f), NETWORK_UNITS, 0, 0);
     for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
         ck_assert_float_eq(network.weight[j], 20.0f);
     }
-    ck_assert_int_eq(learn(&network, &config, network_x[0], 1.0f, -1e6f), NETWORK_UNITS);
+    expect_held(learn(&network, &config, network_x[0], 1.0f, -1e6f), NETWORK_UNITS, 0, 0);
     for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
         ck_assert_float_eq(network.weight[j], -20.0f);
     }
@@ -205,7 +213,17 @@ START_TEST(centre_stops_at_its_limit) {
     config.rate_weight = config.rate_width = 0.0f;
     config.rate_centre = 10.0f;
     lh_network network = reference_network();
-    ck_assert_int_gt(learn(&network, &config, network_x[0], 1.0f, 1e6f), 0);
+    const lh_held held = learn(&network, &config, network_x[0], 1.0f, 1e6f);
+    uint64_t least = 0, largest = 0;
+    for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
+        for (int32_t i = 0; i < NETWORK_INPUTS; ++i) {
+            least += network.centre[i][j] == -LH_CENTRE_LIMIT;
+            largest += network.centre[i][j] == LH_CENTRE_LIMIT;
+        }
+    }
+    ck_assert_uint_gt(least, 0);
+    ck_assert_uint_gt(largest, 0);
+    ck_assert_uint_eq(held.centres, least + largest);
     ck_assert_int_eq(lh_network_validate(&network, &config), LH_OK);
 }
 END_TEST
@@ -217,7 +235,8 @@ START_TEST(what_is_not_finite_is_never_stored) {
         lh_network network = reference_network();
         const lh_network before = network;
         /* all weights and widths and every centre */
-        ck_assert_int_eq(learn(&network, &config, network_x[0], 0.1f, errors[k]), NETWORK_UNITS * (2 + NETWORK_INPUTS));
+        expect_held(learn(&network, &config, network_x[0], 0.1f, errors[k]), NETWORK_UNITS, NETWORK_UNITS,
+                    NETWORK_UNITS * NETWORK_INPUTS);
         ck_assert_mem_eq(&network, &before, sizeof network);
     }
     const float finite[] = {FLT_MAX, -FLT_MAX, 1e30f, -1e30f};
