@@ -16,8 +16,8 @@
 _Static_assert(LH_ACTION_LEVELS == 3, "the inputs of the levels are 0, 1/2 and 1");
 
 /* square[j] = ||s - mu_j||^2 over the state inputs; quarter[j] = e^(-1/4 sigma_j^2). */
-static void begin(const lh_network *network, const float *states, int32_t num_states, int32_t end,
-                  const float *restrict precision, float *restrict square, float *restrict quarter) {
+static void measure_states(const lh_network *network, const float *states, int32_t num_states, int32_t end,
+                           const float *restrict precision, float *restrict square, float *restrict quarter) {
     for (int32_t j = 0; j < end; ++j) {
         square[j] = 0.0f;
         quarter[j] = lh_decay(0.25f * precision[j]);
@@ -32,7 +32,7 @@ static void begin(const lh_network *network, const float *states, int32_t num_st
     }
 }
 
-/* The Gaussians of one actuator over those of the level nearest to the centre, with one exponential for all levels.
+/* f_jk of one actuator, and into square[j] the distance of its nearest level; one exponential for all levels.
  * Let a be the distance of the centre from level 1/2, p = 1 / sigma^2 and ratio = e^(-|a - 1/4| p), the Gaussian of the
  * second nearest over that of the nearest. The squares of the distances from level 1/2, the nearer end and the farther
  * end are a^2, (a - 1/2)^2 and (a + 1/2)^2; so the far end over the nearest is
@@ -124,12 +124,12 @@ static void contract(const lh_action_scratch *scratch, int32_t units, float (*bl
     }
 }
 
-/* Factors of all levels of all actuators, and w_j times the largest product of Gaussians in weighted[j]. */
+/* f_jk of all levels and actuators, and weighted[j] = w_j m_j(s). */
 static void factorise(const lh_network *network, const float *states, int32_t num_states, int32_t end,
                       lh_action_scratch *scratch, float *restrict weighted) {
     int32_t n = network->inputs - num_states;
     lh_network_precisions(network, scratch->precision);
-    begin(network, states, num_states, end, scratch->precision, scratch->square, scratch->quarter);
+    measure_states(network, states, num_states, end, scratch->precision, scratch->square, scratch->quarter);
     for (int32_t k = 0; k < n; ++k) {
         relative_gaussians(network->centre[num_states + k], scratch->precision, scratch->quarter, end, scratch->square,
                            scratch->factor[k][0], scratch->factor[k][1], scratch->factor[k][2]);

@@ -9,7 +9,7 @@
  *         drive the actuators with decision.velocity for one decision period;
  *     }
  *
- * The caller owns the struct; there is no other state. About 39 KiB with the default capacities. */
+ * The caller owns the struct; there is no other state. About 44 KiB with the default capacities. */
 #ifndef LIMPHOME_CONTROLLER_H
 #define LIMPHOME_CONTROLLER_H
 
