@@ -84,15 +84,15 @@ static void make_rows(const float *restrict product, lh_action_scratch *restrict
 /* column[j][l0 + 3 l1] = factor of actuator 0 at level l0 times factor of actuator 1 at level l1. */
 static void make_columns(lh_action_scratch *scratch, int32_t units) {
     for (int32_t j = 0; j < units; ++j) {
-        float *column = scratch->column[j];
+        float *restrict column = scratch->column[j];
         float reverse = scratch->factor[0][0][j];
         float still = scratch->factor[0][1][j];
         float forward = scratch->factor[0][2][j];
         for (int32_t level = 0; level < LH_ACTION_LEVELS; ++level) {
             float second = scratch->factor[1][level][j];
-            column[3 * level] = reverse * second;
-            column[3 * level + 1] = still * second;
-            column[3 * level + 2] = forward * second;
+            *column++ = reverse * second;
+            *column++ = still * second;
+            *column++ = forward * second;
         }
     }
 }

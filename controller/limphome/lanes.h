@@ -40,11 +40,7 @@ static inline int32_t lh_end_of_units(int32_t units) {
 
 /* Sum of x[LH_LANES], in pairs. */
 static inline float lh_sum_lanes(const float *x) {
-    float half[4];
-    for (int32_t lane = 0; lane < 4; ++lane) {
-        half[lane] = x[lane] + x[lane + 4];
-    }
-    return (half[0] + half[2]) + (half[1] + half[3]);
+    return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
 }
 
 /* sum_j a[j] b[j] over the units, in LH_LANES partial sums; in the last lanes one of the two must be 0 beyond. */

@@ -167,7 +167,7 @@ static uint32_t learn_widths(float *restrict width, const lh_network_config *con
         float updated = width[j] + config->rate_width * pull[j] * distance[j] / width[j];
         float kept = updated < config->width_floor ? config->width_floor : updated;
         kept = kept > LH_WIDTH_LIMIT ? LH_WIDTH_LIMIT : kept;
-        held += kept != updated;
+        held += kept != updated ? 1u : 0u;
         width[j] = kept;
     }
     return held;
