@@ -52,8 +52,8 @@ static inline float lh_exponential(float x) {
 
 #define LH_DECAY_END 87.3f
 
-/* e^-x for x >= 0, as exact as lh_exp up to LH_DECAY_END, and beyond what it is there, 1.2e-38: never 0, so that it may
- * be divided by, and never denormal, so that n can be added to the exponent of e^r. */
+/* e^-x for x >= 0, not NaN, as exact as lh_exp up to LH_DECAY_END, and beyond what it is there, 1.2e-38: never 0, so
+ * that it may be divided by, and never denormal, so that n can be added to the exponent of e^r. */
 LH_ALWAYS_INLINE float lh_decay(float x) {
     x = x > LH_DECAY_END ? LH_DECAY_END : x;
     float shifted;

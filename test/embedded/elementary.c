@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "limphome/exponential.h"
 #include "platform.h"
 
 enum { STRIDE = 4099 }; /* prime: every exponent, and all kinds of mantissas */
@@ -17,8 +18,13 @@ static float angle_by_base(float x) {
     return lh_atan2(-0.75f, x);
 }
 
+/* Not made for NaN. */
+static float decay(float x) {
+    return x != x ? x : lh_decay(x > 0.0f ? x : -x);
+}
+
 static float (*const functions[])(float) = {
-    lh_exp, lh_log, lh_sin, lh_cos, angle_by_height, angle_by_base, lh_sqrt, lh_wrap_angle,
+    lh_exp, decay, lh_log, lh_sin, lh_cos, angle_by_height, angle_by_base, lh_sqrt, lh_wrap_angle,
 };
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 

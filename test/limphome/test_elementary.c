@@ -2,6 +2,7 @@
  * slow, so the loops only take note. */
 #include "limphome/elementary.h"
 
+#include "limphome/exponential.h"
 #include "test.h"
 
 #define STRIDE 257u
@@ -43,6 +44,26 @@ START_TEST(exp_over_all_floats) {
     ck_assert_double_lt(worst, 2e-7);
     ck_assert_double_le(worst_denormal, 0x1p-149); /* one step of the denormals */
     ck_assert_int_eq(wrong, 0);
+}
+END_TEST
+
+START_TEST(decay_over_all_floats_from_zero) {
+    double worst = 0.0;
+    int64_t wrong = 0;
+    for (uint32_t bits = 0; float_of(bits) <= FLT_MAX; bits += STRIDE) {
+        const float x = float_of(bits);
+        const float actual = lh_decay(x);
+        worst = fmax(worst, fabs((double)actual * exp(fmin((double)x, (double)LH_DECAY_END)) - 1.0));
+        wrong += !(actual >= FLT_MIN && actual <= 1.0f);
+    }
+    ck_assert_double_lt(worst, 2e-7);
+    ck_assert_int_eq(wrong, 0);
+    ck_assert_float_eq(lh_decay(0.0f), 1.0f);
+    ck_assert_float_eq(lh_decay(FLT_MAX), lh_decay(LH_DECAY_END));
+    ck_assert_float_eq(lh_decay(INFINITY), lh_decay(LH_DECAY_END));
+    for (float x = LH_DECAY_END - 1.0f; x < LH_DECAY_END; x += 1e-4f) { /* where the exponent is at its end */
+        ck_assert_float_ge(lh_decay(x), lh_decay(LH_DECAY_END));
+    }
 }
 END_TEST
 
@@ -209,6 +230,7 @@ Suite *suite(void) {
     Suite *s = suite_create("elementary");
     TCase *t = tcase_create("against libm");
     tcase_add_test(t, exp_over_all_floats);
+    tcase_add_test(t, decay_over_all_floats_from_zero);
     tcase_add_test(t, exp_near_zero_and_at_the_ends);
     tcase_add_test(t, log_over_all_floats);
     tcase_add_test(t, log_relative_near_one_and_special);
