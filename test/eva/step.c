@@ -16,6 +16,7 @@ int main(void) {
     if (lh_controller_init(&controller, &config, &robot, &controlled) != LH_OK) {
         return 1;
     }
+    /*@ loop unroll 0; */
     while (Frama_C_interval(0, 1)) {
         lh_state state;
         lh_decision decision;
