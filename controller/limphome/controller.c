@@ -5,7 +5,7 @@
 #include "limphome/action.h"
 #include "limphome/elementary.h"
 
-#define LARGEST_EPISODE 1000000000 /* leaves room to count on without overflow */
+#define LARGEST_EPISODE 1000000000 /* where counting stops */
 
 /* What a state tells, beside the inputs. */
 typedef struct situation {
@@ -233,6 +233,10 @@ static void choose(lh_controller *controller, const situation *now, lh_decision 
     }
 }
 
+static int32_t number_after(const lh_episode *episode) {
+    return episode->number < LARGEST_EPISODE ? episode->number + 1 : LARGEST_EPISODE;
+}
+
 lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh_decision *decision) {
     lh_error error = lh_state_validate(state, &controller->robot);
     if (error != LH_OK) {
@@ -255,12 +259,12 @@ lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh
     }
     if (decision->reset) {
         describe(controller, &now, decision);
-        ++episode->number;
+        episode->number = number_after(episode);
         controller->acting = false;
         return LH_OK;
     }
     if (decision->ended) {
-        lh_episode_begin(episode, episode->number + 1, &now.pose);
+        lh_episode_begin(episode, number_after(episode), &now.pose);
     }
     describe(controller, &now, decision);
     choose(controller, &now, decision);
