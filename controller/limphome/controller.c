@@ -113,6 +113,7 @@ static situation assess(const lh_controller *controller, const lh_state *state) 
     lh_posture posture;
     lh_kinematics_posture(&controller->robot, attitude, state->actuator_position, controller->config.support_tolerance,
                           &posture);
+    //@ split posture.num_carrying; // for Frama-C: so many are set
     lh_vec3 carrying[LH_MAX_SUPPORTS];
     for (int32_t i = 0; i < posture.num_carrying; ++i) {
         carrying[i] = posture.supports[posture.carrying[i]];
