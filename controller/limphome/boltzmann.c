@@ -99,8 +99,11 @@ int32_t lh_boltzmann_select(const float *q, int32_t count, float temperature, lh
     }
     /* the place in the chunk, which rounding must not make one of likelihood 0 */
     int32_t place = 0;
+    int32_t end = CHUNK;
     //@ split first; // for Frama-C: the end depends on it
-    int32_t end = count - first < CHUNK ? count - first : CHUNK;
+    if (count - first < CHUNK) {
+        end = count - first;
+    }
     for (int32_t i = 0; i < end && below <= target; ++i) {
         if (likelihood[i] > 0.0f) {
             place = i;
