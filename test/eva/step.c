@@ -39,9 +39,15 @@ int main(void) {
     //@ loop unroll 0; loop widen_hints controller.episode.steps, 199;
     while (Frama_C_interval(0, 1)) {
         switch (Frama_C_interval(0, 2)) {
-            case 0: lh_controller_begin(&controller); break;
-            case 1: restore(); break;
-            default: step(); break;
+            case 0:
+                lh_controller_begin(&controller);
+                break;
+            case 1:
+                restore();
+                break;
+            default:
+                step();
+                break;
         }
         //@ split controller.acting;
     }
