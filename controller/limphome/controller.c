@@ -180,8 +180,8 @@ static lh_summary summarise(const lh_controller *controller, const lh_pose2 *end
     };
 }
 
-/* The action under way has led to `now`: reward, learn, sum up. */
-static void finish_step(lh_controller *controller, const situation *now, lh_decision *decision) {
+/* The action under way has led to `now`: reward, learn, sum up. Returns how that ends the episode, if it does. */
+static lh_outcome finish_step(lh_controller *controller, const situation *now, lh_decision *decision) {
     lh_episode *episode = &controller->episode;
     ++episode->steps;
     lh_outcome outcome = lh_episode_outcome(episode, &controller->config.episode, &now->pose, now->tilt);
@@ -196,6 +196,7 @@ static void finish_step(lh_controller *controller, const situation *now, lh_deci
         decision->ended = true;
         decision->summary = summarise(controller, &now->pose, outcome);
     }
+    return outcome;
 }
 
 static void describe(const lh_controller *controller, const situation *now, lh_decision *decision) {
@@ -249,22 +250,23 @@ lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh
         (uint64_t)lh_observation(&controller->robot, &controller->controlled, state, decision->inputs);
 
     lh_episode *episode = &controller->episode;
+    lh_outcome outcome = LH_OUTCOME_NONE;
     if (controller->acting) {
-        finish_step(controller, &now, decision);
+        outcome = finish_step(controller, &now, decision);
     } else {
         lh_episode_begin(episode, episode->number, &now.pose);
     }
-    if (decision->ended) {
-        bool tumbled = decision->summary.outcome == LH_OUTCOME_TUMBLE;
+    if (outcome != LH_OUTCOME_NONE) {
+        bool tumbled = outcome == LH_OUTCOME_TUMBLE;
         decision->reset = tumbled || episode->number % controller->config.episode.reset_every == 0;
     }
     if (decision->reset) {
         describe(controller, &now, decision);
-        episode->number = number_after(episode);
+        lh_episode_begin(episode, number_after(episode), &now.pose); /* once more when the robot is in its pose */
         controller->acting = false;
         return LH_OK;
     }
-    if (decision->ended) {
+    if (outcome != LH_OUTCOME_NONE) {
         lh_episode_begin(episode, number_after(episode), &now.pose);
     }
     describe(controller, &now, decision);

@@ -35,7 +35,6 @@ int main(void) {
         return 1;
     }
     /* not unrolled, as it has no end; a bound for EVA to try, below the limit of steps */
-    //@ split controller.acting;
     //@ loop unroll 0; loop widen_hints controller.episode.steps, 199;
     while (Frama_C_interval(0, 1)) {
         switch (Frama_C_interval(0, 2)) {
@@ -49,7 +48,6 @@ int main(void) {
                 step();
                 break;
         }
-        //@ split controller.acting;
     }
     return 0;
 }
