@@ -43,7 +43,7 @@ static float largest(const float *q, int32_t count) {
 int32_t lh_boltzmann_greedy(const float *q, int32_t count) {
     float most = largest(q, count);
     int32_t best = 0;
-    while (q[best] < most) {
+    while (best < count - 1 && q[best] < most) {
         ++best;
     }
     return best;
@@ -99,7 +99,12 @@ int32_t lh_boltzmann_select(const float *q, int32_t count, float temperature, lh
     }
     /* the place in the chunk, which rounding must not make one of likelihood 0 */
     int32_t place = 0;
-    for (int32_t i = 0; i < CHUNK && below <= target; ++i) {
+    int32_t end = CHUNK;
+    //@ split first; // for Frama-C: the end depends on it
+    if (count - first < CHUNK) {
+        end = count - first;
+    }
+    for (int32_t i = 0; i < end && below <= target; ++i) {
         if (likelihood[i] > 0.0f) {
             place = i;
             below += likelihood[i];

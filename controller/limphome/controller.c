@@ -5,7 +5,7 @@
 #include "limphome/action.h"
 #include "limphome/elementary.h"
 
-#define LARGEST_EPISODE 1000000000 /* leaves room to count on without overflow */
+#define LARGEST_EPISODE 1000000000 /* where counting stops */
 
 /* What a state tells, beside the inputs. */
 typedef struct situation {
@@ -113,6 +113,7 @@ static situation assess(const lh_controller *controller, const lh_state *state) 
     lh_posture posture;
     lh_kinematics_posture(&controller->robot, attitude, state->actuator_position, controller->config.support_tolerance,
                           &posture);
+    //@ split posture.num_carrying; // for Frama-C: so many are set
     lh_vec3 carrying[LH_MAX_SUPPORTS];
     for (int32_t i = 0; i < posture.num_carrying; ++i) {
         carrying[i] = posture.supports[posture.carrying[i]];
@@ -179,8 +180,8 @@ static lh_summary summarise(const lh_controller *controller, const lh_pose2 *end
     };
 }
 
-/* The action under way has led to `now`: reward, learn, sum up. */
-static void finish_step(lh_controller *controller, const situation *now, lh_decision *decision) {
+/* The action under way has led to `now`: reward, learn, sum up. Returns how that ends the episode, if it does. */
+static lh_outcome finish_step(lh_controller *controller, const situation *now, lh_decision *decision) {
     lh_episode *episode = &controller->episode;
     ++episode->steps;
     lh_outcome outcome = lh_episode_outcome(episode, &controller->config.episode, &now->pose, now->tilt);
@@ -195,6 +196,7 @@ static void finish_step(lh_controller *controller, const situation *now, lh_deci
         decision->ended = true;
         decision->summary = summarise(controller, &now->pose, outcome);
     }
+    return outcome;
 }
 
 static void describe(const lh_controller *controller, const situation *now, lh_decision *decision) {
@@ -233,6 +235,10 @@ static void choose(lh_controller *controller, const situation *now, lh_decision 
     }
 }
 
+static int32_t number_after(const lh_episode *episode) {
+    return episode->number < LARGEST_EPISODE ? episode->number + 1 : LARGEST_EPISODE;
+}
+
 lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh_decision *decision) {
     lh_error error = lh_state_validate(state, &controller->robot);
     if (error != LH_OK) {
@@ -244,23 +250,24 @@ lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh
         (uint64_t)lh_observation(&controller->robot, &controller->controlled, state, decision->inputs);
 
     lh_episode *episode = &controller->episode;
+    lh_outcome outcome = LH_OUTCOME_NONE;
     if (controller->acting) {
-        finish_step(controller, &now, decision);
+        outcome = finish_step(controller, &now, decision);
     } else {
         lh_episode_begin(episode, episode->number, &now.pose);
     }
-    if (decision->ended) {
-        bool tumbled = decision->summary.outcome == LH_OUTCOME_TUMBLE;
+    if (outcome != LH_OUTCOME_NONE) {
+        bool tumbled = outcome == LH_OUTCOME_TUMBLE;
         decision->reset = tumbled || episode->number % controller->config.episode.reset_every == 0;
     }
     if (decision->reset) {
         describe(controller, &now, decision);
-        ++episode->number;
+        lh_episode_begin(episode, number_after(episode), &now.pose); /* once more when the robot is in its pose */
         controller->acting = false;
         return LH_OK;
     }
-    if (decision->ended) {
-        lh_episode_begin(episode, episode->number + 1, &now.pose);
+    if (outcome != LH_OUTCOME_NONE) {
+        lh_episode_begin(episode, number_after(episode), &now.pose);
     }
     describe(controller, &now, decision);
     choose(controller, &now, decision);

@@ -122,7 +122,8 @@ lh_error lh_controller_restore(lh_controller *controller, const lh_network *netw
 
 /* One decision. LH_ERROR_STATE, and nothing changed, if the state is not valid: hold still and call again.
  * An episode that ends on the goal line or by the time limit is followed by the next from where the robot is, unless
- * its number is a multiple of config.episode.reset_every; then, and after a tumble, `reset` is asked for.
+ * its number is a multiple of config.episode.reset_every; then, and after a tumble, `reset` is asked for. Episode
+ * 1000000000 is followed by others of the same number.
  * Learning, max over a of Q(s, a) in (1) is that of the network before it learns; the choice is made by the network
  * after. */
 lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh_decision *decision);

@@ -33,9 +33,9 @@ float lh_sqrt(float x);
 /* x brought into (-pi, pi] by whole turns; absolute error below 2e-7 for |x| up to 100 rad, NaN beyond 8192 rad. */
 float lh_wrap_angle(float x);
 
-/* Whether low <= x <= high; false for NaN. */
+/* Whether low <= x <= high; false for NaN, which is asked for first as Frama-C does not conclude it from the rest. */
 static inline bool lh_within(float x, float low, float high) {
-    return x >= low && x <= high;
+    return x == x && x >= low && x <= high;
 }
 
 /* False for NaN and infinity. */

@@ -1,9 +1,27 @@
-/* What Frama-C's EVA analyses: any number of decisions, each on a state of which every bit is unknown. */
+/* What Frama-C's EVA analyses: any number of decisions, each on a state of which every bit is unknown, with beginnings
+ * anew and restored networks and random states, of which every bit is unknown too, in between. */
 #include <__fc_builtin.h>
 
 #include "crawler.h"
 
 static lh_controller controller; /* also what EVA starts from: all 0 */
+
+static void restore(void) {
+    static lh_network network;
+    uint32_t random_state[4];
+    Frama_C_make_unknown((char *)&network, sizeof network);
+    Frama_C_make_unknown((char *)random_state, sizeof random_state);
+    lh_controller_restore(&controller, &network, random_state, Frama_C_interval(INT32_MIN, INT32_MAX));
+}
+
+static void step(void) {
+    lh_state state;
+    lh_decision decision;
+    Frama_C_make_unknown((char *)&state, sizeof state);
+    if (lh_controller_step(&controller, &state, &decision) == LH_OK && !decision.reset) {
+        //@ assert 0 <= decision.choice.action < controller.learner.num_actions;
+    }
+}
 
 int main(void) {
     lh_config config = lh_config_default();
@@ -16,11 +34,20 @@ int main(void) {
     if (lh_controller_init(&controller, &config, &robot, &controlled) != LH_OK) {
         return 1;
     }
+    /* not unrolled, as it has no end; a bound for EVA to try, below the limit of steps */
+    //@ loop unroll 0; loop widen_hints controller.episode.steps, 199;
     while (Frama_C_interval(0, 1)) {
-        lh_state state;
-        lh_decision decision;
-        Frama_C_make_unknown((char *)&state, sizeof state);
-        lh_controller_step(&controller, &state, &decision);
+        switch (Frama_C_interval(0, 2)) {
+            case 0:
+                lh_controller_begin(&controller);
+                break;
+            case 1:
+                restore();
+                break;
+            default:
+                step();
+                break;
+        }
     }
     return 0;
 }

@@ -513,6 +513,25 @@ START_TEST(bad_checkpoints_change_nothing) {
 }
 END_TEST
 
+/* Counting ends at the last number, after a reset and without one. */
+START_TEST(last_episode_number_is_used_again) {
+    const lh_config config = lh_config_default();
+    init(&controller, &config);
+    const lh_network network = controller.learner.network;
+    const uint32_t random_state[4] = {1, 2, 3, 4};
+    ck_assert_int_eq(lh_controller_restore(&controller, &network, random_state, 999999999), LH_OK);
+    ck_assert_int_eq(step_at(&controller, 0.0f, 0.0f).episode, 999999999);
+    ck_assert(!step_at(&controller, 0.0f, 2.5f).reset); /* on the goal line */
+    ck_assert_int_eq(controller.episode.number, 1000000000);
+    ck_assert(step_at(&controller, 0.0f, 5.0f).reset); /* a multiple of reset_every */
+    ck_assert_int_eq(controller.episode.number, 1000000000);
+    controller.config.episode.reset_every = 7;
+    step_at(&controller, 0.0f, 0.0f);
+    ck_assert(!step_at(&controller, 0.0f, 2.5f).reset);
+    ck_assert_int_eq(controller.episode.number, 1000000000);
+}
+END_TEST
+
 /* A robot of eight actuators: six joints on end, two crawlers. */
 START_TEST(works_at_full_capacity) {
     lh_robot robot = crawler_robot();
@@ -710,6 +729,7 @@ Suite *suite(void) {
     tcase_add_test(t, equal_runs_are_equal_bit_by_bit);
     tcase_add_test(t, restored_run_is_equal_bit_by_bit);
     tcase_add_test(t, bad_checkpoints_change_nothing);
+    tcase_add_test(t, last_episode_number_is_used_again);
     suite_add_tcase(s, t);
     return s;
 }
