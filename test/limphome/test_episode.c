@@ -74,6 +74,7 @@ START_TEST(outcomes_and_their_precedence) {
     ck_assert_int_eq(lh_episode_outcome(&episode, &config, &before, upright), LH_OUTCOME_NONE);
     ck_assert_int_eq(lh_episode_outcome(&episode, &config, &beyond, upright), LH_OUTCOME_GOAL);
     ck_assert_int_eq(lh_episode_outcome(&episode, &config, &before, tumbled), LH_OUTCOME_TUMBLE);
+    ck_assert_int_eq(lh_episode_outcome(&episode, &config, &before, config.tumble_tilt), LH_OUTCOME_NONE);
     ck_assert_int_eq(lh_episode_outcome(&episode, &config, &beyond, tumbled), LH_OUTCOME_TUMBLE);
     episode.steps = config.step_limit - 1;
     ck_assert_int_eq(lh_episode_outcome(&episode, &config, &before, upright), LH_OUTCOME_NONE);

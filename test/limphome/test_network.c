@@ -205,6 +205,7 @@ START_TEST(weight_stops_at_its_limit) {
     for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
         ck_assert_float_eq(network.weight[j], -20.0f);
     }
+    expect_held(learn(&network, &config, network_x[0], 1.0f, 0.0f), 0, 0, 0); /* at the limit is not beyond it */
 }
 END_TEST
 

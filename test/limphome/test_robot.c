@@ -9,6 +9,14 @@ START_TEST(crawler_is_good) {
 }
 END_TEST
 
+START_TEST(one_link_is_enough) {
+    lh_robot robot = crawler_robot();
+    robot.num_links = 1;
+    robot.num_supports = 4; /* those of the crawlers */
+    ck_assert_int_eq(lh_robot_validate(&robot), LH_OK);
+}
+END_TEST
+
 START_TEST(broken_rules_are_named) {
 #define BAD(place, value, error)                            \
     do {                                                    \
@@ -71,6 +79,7 @@ Suite *suite(void) {
     Suite *s = suite_create("robot");
     TCase *t = tcase_create("rules");
     tcase_add_test(t, crawler_is_good);
+    tcase_add_test(t, one_link_is_enough);
     tcase_add_test(t, broken_rules_are_named);
     tcase_add_test(t, total_mass_must_have_a_finite_reciprocal);
     suite_add_tcase(s, t);

@@ -73,6 +73,21 @@ START_TEST(sign_of_a_quaternion_does_not_matter) {
 }
 END_TEST
 
+/* i i = j j = k k = -1, i j = k, j k = i, k i = j; the other way round the signs turn. */
+START_TEST(product_by_its_rules) {
+    const lh_quat unit[] = {{0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+    for (int32_t a = 0; a < 3; ++a) {
+        const lh_quat square = lh_quat_multiply(unit[a], unit[a]);
+        ck_assert(square.w == -1.0f && square.x == 0.0f && square.y == 0.0f && square.z == 0.0f);
+        const lh_quat third = unit[(a + 2) % 3];
+        const lh_quat product = lh_quat_multiply(unit[a], unit[(a + 1) % 3]);
+        ck_assert(product.w == 0.0f && product.x == third.x && product.y == third.y && product.z == third.z);
+        const lh_quat reversed = lh_quat_multiply(unit[(a + 1) % 3], unit[a]);
+        ck_assert(reversed.w == 0.0f && reversed.x == -third.x && reversed.y == -third.y && reversed.z == -third.z);
+    }
+}
+END_TEST
+
 START_TEST(signs_of_the_angles) {
     const lh_vec3 forward = {1, 0, 0};
     const lh_vec3 left = {0, 1, 0};
@@ -115,6 +130,7 @@ Suite *suite(void) {
     tcase_add_test(t, product_applies_the_right_one_first);
     tcase_add_test(t, angles_against_matrices);
     tcase_add_test(t, sign_of_a_quaternion_does_not_matter);
+    tcase_add_test(t, product_by_its_rules);
     tcase_add_test(t, signs_of_the_angles);
     tcase_add_test(t, angles_at_their_ends);
     tcase_add_test(t, normalised_to_unit_length);
