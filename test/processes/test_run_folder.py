@@ -100,6 +100,14 @@ def test_recording_holds_the_status_of_both_processes(messages):
     assert {status.process for status in messages[STATUS]} == {status_t.PLANT, status_t.CONTROLLER}
 
 
+def test_status_tells_each_limit_that_acted(messages):
+    last = [status for status in messages[STATUS] if status.process == status_t.CONTROLLER][-1]
+    each = [last.clamped_inputs, last.clamped_temperatures, last.clamped_margins, last.clamped_weights,
+            last.clamped_widths, last.clamped_centres]
+    assert last.clamped_inputs > 0  # joints rest on their stops
+    assert last.clamped == sum(each)
+
+
 def test_manifest_tells_what_it_took(smoke_run):
     manifest = json.loads(smoke_run.manifest.read_text())
     rows = smoke_run.read_episodes()
