@@ -3,7 +3,6 @@
 #define __builtin_sqrtf sqrtf
 #define __builtin_inff() INFINITY
 #define __builtin_nanf(text) NAN
-#define _Alignas(bytes)
 static inline float magnitude_of(float x) {
     return x < 0.0f ? -x : x;
 }
