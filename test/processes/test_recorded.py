@@ -1,0 +1,29 @@
+"""What is learned does not change unnoticed: SHA-256 of what two runs of 60 episodes left behind.
+
+A change of recorded.json says that the learner, the task or the physics has changed, and is a decision of its own. The
+library gives the same bits everywhere; the simulator's depend on the C library's sine, which has two forms on x86-64.
+"""
+
+import hashlib
+import json
+import platform
+from pathlib import Path
+
+import pytest
+from conftest import ROOT, run_script
+
+RECORDED = json.loads((Path(__file__).parent / "recorded.json").read_text())
+
+
+def has_fused_multiply_add():
+    return platform.machine() == "x86_64" and " fma " in Path("/proc/cpuinfo").read_text()
+
+
+@pytest.mark.skipif(not has_fused_multiply_add(), reason="recorded on x86-64 with FMA")
+@pytest.mark.parametrize("experiment", RECORDED)
+def test_what_is_learned_is_what_was_recorded(experiment, tmp_path):
+    run_script("train", "--config", ROOT / "config" / f"{experiment}.ini", "--episodes", 60, "--out", tmp_path / "run",
+               "--quiet")
+    found = {name: hashlib.sha256((tmp_path / "run" / name).read_bytes()).hexdigest()
+             for name in RECORDED[experiment]}
+    assert found == RECORDED[experiment]
