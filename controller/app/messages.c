@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "limphome/capacity.h"
+#include "limphome/base/capacity.h"
 
 enum { WIRE_ACTUATORS = 8, WIRE_UNITS = 64, WIRE_INPUTS = 18 };
 _Static_assert(LH_MAX_ACTUATORS <= WIRE_ACTUATORS, "robot_state_t carries 8 actuators");

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "limphome/robot.h"
+#include "limphome/body/robot.h"
 
 enum { URDF_NAME_LENGTH = 48, URDF_ERROR_LENGTH = 512 };
 

@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-#include "limphome/action.h"
-#include "limphome/elementary.h"
+#include "limphome/task/action.h"
+#include "limphome/base/elementary.h"
 
 #define LARGEST_EPISODE 1000000000 /* where counting stops */
 

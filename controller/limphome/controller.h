@@ -16,14 +16,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "limphome/boltzmann.h"
-#include "limphome/episode.h"
-#include "limphome/kinematics.h"
-#include "limphome/learner.h"
-#include "limphome/observation.h"
-#include "limphome/reward.h"
-#include "limphome/robot.h"
-#include "limphome/stability.h"
+#include "limphome/learning/boltzmann.h"
+#include "limphome/task/episode.h"
+#include "limphome/body/kinematics.h"
+#include "limphome/learning/learner.h"
+#include "limphome/task/observation.h"
+#include "limphome/task/reward.h"
+#include "limphome/body/robot.h"
+#include "limphome/body/stability.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -25,6 +25,7 @@ CHANGES = [
     (r" == ", " != "), (r" != ", " == "), (r" && ", " || "), (r" \|\| ", " && "),
     (r"\+= ", "-= "), (r"\b0\.5f", "0.6f"), (r"\b1\.0f", "1.1f"), (r"\b0\.0f", "0.1f"), (r"= true;", "= false;"),
 ]  # fmt: skip
+LIBRARY = ROOT / "controller/limphome"
 SMALL = {"test_capacity": "-DLH_MAX_ACTIONS=81"}  # tests of a library with other capacities
 OUTCOMES = ["noticed", "too slow", "not compiled", "same code", "SURVIVED"]
 RULES = """
@@ -45,7 +46,7 @@ Mutant = collections.namedtuple("Mutant", "file number column line")  # number a
 
 def mutants():
     """Each possible change of sources and headers, comments and preprocessor lines left out."""
-    for file in sorted((ROOT / "controller/limphome").glob("*.[ch]")):
+    for file in sorted(LIBRARY.rglob("*.[ch]")):
         text = file.read_text()
         blank = re.sub(r"/\*.*?\*/", lambda comment: re.sub(r"[^\n]", "\0", comment[0]), text, flags=re.DOTALL)
         for number, (line, code) in enumerate(zip(text.splitlines(), blank.splitlines(), strict=True)):
@@ -53,21 +54,28 @@ def mutants():
                 for old, new in CHANGES:
                     for match in re.finditer(old, code):
                         changed = line[: match.start()] + new + line[match.end() :]
-                        yield Mutant(file.name, number, match.start(), changed)
+                        yield Mutant(str(file.relative_to(LIBRARY)), number, match.start(), changed)
+
+
+def stem_below(file, folder):
+    """Path below `folder`, without the ending."""
+    return str(file.relative_to(folder).with_suffix(""))
 
 
 def build_rules(sources, tests):
-    """What ninja must know: the library and its tests with default capacities, and those of SMALL."""
+    """What ninja must know: the library from its sources and its tests {name: source} with default capacities, and those
+    of SMALL. Sources are named by path without the ending."""
     text = RULES
     for more in ["", *SMALL.values()]:
         folder = f"build{more}"
-        for stem in [*(f"limphome/{s}" for s in sources), "test/crawler", "test/runner"]:
+        for stem in [*sources, "test/crawler", "test/runner"]:
             text += f"build {folder}/{stem}.o: compile {stem}.c\n  more = {more}\n"
-        text += f"build {folder}/library.so: library {' '.join(f'{folder}/limphome/{s}.o' for s in sources)}\n"
+        text += f"build {folder}/library.so: library {' '.join(f'{folder}/{s}.o' for s in sources)}\n"
         common = f"{folder}/test/crawler.o {folder}/test/runner.o || {folder}/library.so"
-        for test in (t for t in tests if SMALL.get(t, "") == more):
-            text += f"build {folder}/test/{test}.o: compile test/{test}.c\n  more = {more}\n"
-            text += f"build {folder}/{test}: program {folder}/test/{test}.o {common}\n  library = {folder}/library.so\n"
+        for test, stem in tests.items():
+            if SMALL.get(test, "") == more:
+                text += f"build {folder}/{stem}.o: compile {stem}.c\n  more = {more}\n"
+                text += f"build {folder}/{test}: program {folder}/{stem}.o {common}\n  library = {folder}/library.so\n"
     return text
 
 
@@ -93,7 +101,7 @@ class Job:
     def outcome(self, mutant):
         """The test named like the file comes first, as the likeliest to notice, then the others, the fastest first."""
         if self.changed is not None:
-            shutil.copyfile(ROOT / "controller/limphome" / self.changed, self.folder / "limphome" / self.changed)
+            shutil.copyfile(LIBRARY / self.changed, self.folder / "limphome" / self.changed)
         self.changed = mutant.file
         file = self.folder / "limphome" / mutant.file
         lines = file.read_text().splitlines()
@@ -111,10 +119,11 @@ def make_jobs(work, count):
     """Builds and times the unchanged library in one folder, and copies it for the others."""
     shutil.rmtree(work, ignore_errors=True)
     first = work / "job1"
-    shutil.copytree(ROOT / "controller/limphome", first / "limphome")
+    shutil.copytree(LIBRARY, first / "limphome")
     shutil.copytree(ROOT / "test/limphome", first / "test")
-    tests = sorted(test.stem for test in (first / "test").glob("test_*.c"))
-    (first / "build.ninja").write_text(build_rules(sorted(s.stem for s in (first / "limphome").glob("*.c")), tests))
+    tests = {test.stem: stem_below(test, first) for test in sorted((first / "test").rglob("test_*.c"))}
+    sources = [stem_below(source, first) for source in sorted((first / "limphome").rglob("*.c"))]
+    (first / "build.ninja").write_text(build_rules(sources, tests))
     subprocess.run(["ninja", "-C", first, "-j", str(count)], check=True, stdout=subprocess.DEVNULL)
     limits = dict.fromkeys(tests, 600.0)
     job = Job(first, limits)

@@ -5,7 +5,7 @@
 #include <time.h>
 
 #include "decision.h"
-#include "limphome/action.h"
+#include "limphome/task/action.h"
 
 enum { ROUNDS = 15, CHECKED = 200 };
 

@@ -3,7 +3,7 @@
 #ifndef LIMPHOME_BENCH_DECISION_H
 #define LIMPHOME_BENCH_DECISION_H
 
-#include "limphome/learner.h"
+#include "limphome/learning/learner.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -3,8 +3,8 @@
 set -eu
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-for header in "$1"/include/limphome/*.h; do
-    printf '#include <limphome/%s>\nextern int nothing;\n' "$(basename "$header")" >"$work/includes.h"
+for header in $(cd "$1/include" && find limphome -name '*.h'); do
+    printf '#include <%s>\nextern int nothing;\n' "$header" >"$work/includes.h"
     ${CC:-cc} -x c -std=gnu89 -Wall -Wextra -Werror -fsyntax-only -I"$1/include" "$work/includes.h"
     for standard in c99 c11 c17; do
         ${CC:-cc} -x c -std=$standard -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I"$1/include" "$work/includes.h"

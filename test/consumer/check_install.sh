@@ -4,5 +4,5 @@ set -eu
 rm -rf "$2"
 cmake --install "$1" --prefix "$2" --component limphome
 test -f "$2/include/limphome/limphome.h"
-test ! -e "$2/include/limphome/lanes.h"
+test ! -e "$2/include/limphome/base/lanes.h"
 test ! -e "$2/bin"

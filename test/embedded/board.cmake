@@ -8,17 +8,15 @@ target_include_directories(limphome_board INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
 target_link_options(limphome_board INTERFACE -nostartfiles -Wl,--gc-sections -T ${CMAKE_CURRENT_SOURCE_DIR}/mps2.ld)
 target_link_libraries(limphome_board INTERFACE limphome)
 
-# The Check tests of the library, by a stand-in for Check. Not those of elementary: billions of double-precision
-# operations without an FPU for them; comparing bits with the host says more.
+# The Check tests of the library, by a stand-in for Check.
 set(tests ${CMAKE_SOURCE_DIR}/test/limphome)
-foreach(module action boltzmann controller episode error kinematics learner network observation random reward robot
-               stability vector)
-  add_executable(test_${module} ${tests}/test_${module}.c ${tests}/runner.c ${tests}/crawler.c check.c)
-  set_source_files_properties(${tests}/test_${module}.c PROPERTIES COMPILE_OPTIONS -Wno-double-promotion)
-  target_include_directories(test_${module} PRIVATE ${tests})
-  target_compile_definitions(test_${module} PRIVATE _DEFAULT_SOURCE) # M_PI
-  target_link_libraries(test_${module} PRIVATE limphome_board limphome_warnings m)
-  add_test(NAME ${module} COMMAND test_${module})
+include(${tests}/modules.cmake)
+foreach(module ${limphome_test_modules})
+  limphome_test(${module} ${tests} name ${tests}/runner.c ${tests}/crawler.c check.c)
+  target_include_directories(test_${name} PRIVATE ${tests})
+  target_compile_definitions(test_${name} PRIVATE _DEFAULT_SOURCE) # M_PI
+  target_link_libraries(test_${name} PRIVATE limphome_board limphome_warnings m)
+  add_test(NAME ${name} COMMAND test_${name})
 endforeach()
 
 # Programs whose results must have the bytes of the host's.

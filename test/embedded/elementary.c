@@ -1,11 +1,11 @@
 /* The bits of the elementary functions all over the range of a float: elementary.bin receives a checksum for each
  * function. The host's tests compare the functions with libm; on every platform the bits must be the same. */
-#include "limphome/elementary.h"
+#include "limphome/base/elementary.h"
 
 #include <stdint.h>
 #include <string.h>
 
-#include "limphome/exponential.h"
+#include "limphome/base/exponential.h"
 #include "platform.h"
 
 enum { STRIDE = 4099 }; /* prime: every exponent, and all kinds of mantissas */
