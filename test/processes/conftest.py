@@ -2,16 +2,12 @@
 
 import os
 import subprocess
-import sys
 import time
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-BUILD = Path(os.environ.get("LIMPHOME_BUILD", ROOT / "build"))
-sys.path[:0] = [str(ROOT / "scripts"), str(BUILD / "python")]
-
 SMOKE = ROOT / "config" / "smoke.ini"
 TIME_LIMIT_S = 300  # against a hang only; nothing here measures time
 
@@ -60,7 +56,7 @@ def processes_that_mention(text):
 @pytest.fixture(scope="session")
 def smoke_run(tmp_path_factory):
     """Run folder of 30 episodes, seed 1."""
-    from tools.runfolder import RunFolder
+    from limphome_lab.runfolder import RunFolder
     out = tmp_path_factory.mktemp("smoke") / "run"
     train(out)
     return RunFolder(out)

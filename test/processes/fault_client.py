@@ -14,12 +14,14 @@ import lcm
 
 from limphome import robot_state_t, status_t, velocity_command_t
 
+from limphome_lab.channels import COMMAND, STATE, STATUS
+
 
 class Client:
     def __init__(self, url, velocities):
         self.lcm = lcm.LCM(url)
-        self.lcm.subscribe("LIMPHOME_STATE", self._on_state)
-        self.lcm.subscribe("LIMPHOME_STATUS", self._on_status)
+        self.lcm.subscribe(STATE, self._on_state)
+        self.lcm.subscribe(STATUS, self._on_status)
         self.velocities = velocities
         self.answers = {}  # (session, seq) -> command
         self.sessions = {}  # session -> number of states
@@ -45,8 +47,8 @@ class Client:
         command = velocity_command_t()
         command.session, command.seq = key
         command.sender, command.num_actuators = 1, state.num_actuators
-        command.velocity = self.answers[key] + [0.0] * (8 - len(self.answers[key]))
-        self.lcm.publish("LIMPHOME_COMMAND", command.encode())
+        command.velocity[: len(self.answers[key])] = self.answers[key]
+        self.lcm.publish(COMMAND, command.encode())
 
     def _on_status(self, _channel, data):
         status = status_t.decode(data)

@@ -5,7 +5,7 @@ import subprocess
 import pytest
 from conftest import ROOT, SMOKE, run_script
 
-from tools import paths
+from limphome_lab import paths
 
 # (name, text of the INI file, what the message must hold)
 BAD_FILES = [
@@ -80,7 +80,7 @@ def test_resume_of_what_is_not_a_run(tmp_path):
     assert result.returncode == 2 and "not a run folder" in result.stderr
 
 
-@pytest.mark.parametrize("program", [paths.SIMULATOR, paths.CONTROLLER], ids=["simulator", "controller"])
+@pytest.mark.parametrize("program", [paths.program("simulator"), paths.program("controller")], ids=["simulator", "controller"])
 @pytest.mark.parametrize("change", [
     ("</robot>", ""),
     ('<parent link="upper_body"/>', '<parent link="nowhere"/>'),
@@ -100,7 +100,7 @@ def test_programs_refuse_a_bad_robot(tmp_path, program, change):
     assert "bad.urdf" in result.stderr
 
 
-@pytest.mark.parametrize("program", [paths.SIMULATOR, paths.CONTROLLER], ids=["simulator", "controller"])
+@pytest.mark.parametrize("program", [paths.program("simulator"), paths.program("controller")], ids=["simulator", "controller"])
 @by_name(BAD_FILES)
 def test_programs_refuse_a_bad_configuration(tmp_path, program, given, words):
     file = tmp_path / "bad.ini"

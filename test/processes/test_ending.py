@@ -7,7 +7,7 @@ import time
 import pytest
 from conftest import SMOKE, TIME_LIMIT_S, processes_that_mention, run_script, start_script, wait_until
 
-from tools.runfolder import RunFolder
+from limphome_lab.runfolder import RunFolder
 
 
 @pytest.fixture

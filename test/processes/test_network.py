@@ -6,8 +6,8 @@ import subprocess
 import pytest
 from conftest import ROOT, SMOKE, TIME_LIMIT_S
 
-from tools import network, registry
-from tools.runfolder import RunFolder
+from limphome_lab import network, registry
+from limphome_lab.runfolder import RunFolder
 
 pytestmark = pytest.mark.skipif(network.private_prefix() is None, reason="network namespaces are not permitted here")
 

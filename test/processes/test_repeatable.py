@@ -4,8 +4,9 @@ import signal
 
 from conftest import SMOKE, TIME_LIMIT_S, start_script, train, wait_until
 
-from tools.messages import checkpoint_t, policy_t
-from tools.runfolder import RunFolder
+from limphome import checkpoint_t, policy_t
+
+from limphome_lab.runfolder import RunFolder
 
 
 def policy_after(folder, episode):

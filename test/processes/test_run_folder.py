@@ -5,8 +5,10 @@ from collections import Counter
 
 import pytest
 
-from tools.messages import (DECISION, EPISODE, OUTCOMES, POLICY, STATE, STATUS, checkpoint_t, policy_t, recorded,
-                            status_t)
+from limphome import checkpoint_t, policy_t, status_t
+
+from limphome_lab.channels import DECISION, EPISODE, POLICY, STATE, STATUS
+from limphome_lab.messages import OUTCOMES, recorded
 
 EPISODES, RESET_EVERY = 30, 10  # of config/smoke.ini
 PRINTED = 1e-8  # relative: episodes.csv has nine digits

@@ -9,8 +9,9 @@ import subprocess
 import pytest
 from conftest import ROOT, TIME_LIMIT_S, run_script, start_script, wait_until
 
-from tools import registry
-from tools.runfolder import RunFolder
+from limphome_lab import registry
+from limphome_lab.channels import DECISION, STATE
+from limphome_lab.runfolder import RunFolder
 
 
 def test_evaluation_is_greedy_and_repeatable(smoke_run):
@@ -64,11 +65,11 @@ def test_spy_as_text_shows_decoded_values(launched):
     seen = ""
     for line in lines:  # the reader's time limit is that of the whole test run
         seen += line
-        if "stability_margin" in seen and "LIMPHOME_STATE\n" in seen and "orientation" in seen:
+        if "stability_margin" in seen and f"{STATE}\n" in seen and "orientation" in seen:
             break
     spy.send_signal(signal.SIGINT)
     spy.communicate(timeout=TIME_LIMIT_S)
-    assert "LIMPHOME_DECISION" in seen and "num_actuators         5" in seen
+    assert DECISION in seen and "num_actuators         5" in seen
 
 
 def test_spy_without_a_pair(tmp_path):

@@ -8,9 +8,12 @@ from pathlib import Path
 import pytest
 from conftest import ROOT, TIME_LIMIT_S, run_script, train
 
-from tools import network, paths
-from tools.messages import DECISION, STATE, policy_t, recorded
-from tools.runfolder import RunFolder
+from limphome import policy_t
+
+from limphome_lab import network, paths
+from limphome_lab.channels import DECISION, STATE
+from limphome_lab.messages import recorded
+from limphome_lab.runfolder import RunFolder
 
 SHORT = ["--episodes", 2, "--set", "episode.step_limit=30"]
 HARSH = ["--set", "ground.rough_amplitude_m=0.05", "--set", "ground.incline_along_rad=0.05",
@@ -60,7 +63,7 @@ def drive(tmp_path, velocities):
                                                                       'effort="1e9" velocity="1e6"')):
         text = text.replace(reasonable, absurd)
     robot.write_text(text)
-    simulator = [paths.SIMULATOR, "--robot", robot, "--lcm-url", network.lcm_url(), "--set", "failure.actuator=none"]
+    simulator = [paths.program("simulator"), "--robot", robot, "--lcm-url", network.lcm_url(), "--set", "failure.actuator=none"]
     result = subprocess.run([*prefix, sys.executable, Path(__file__).with_name("fault_client.py"), network.lcm_url(),
                              json.dumps(velocities), *map(str, simulator)],
                             capture_output=True, text=True, timeout=TIME_LIMIT_S)
