@@ -4,7 +4,7 @@ import functools
 import sys
 
 
-class Ending(Exception):  # noqa: N818 (not every ending is an error)
+class Ending(Exception):
     """Ends the command; its text, where there is one, tells the user why."""
 
     exit_code = 1

@@ -2,9 +2,16 @@
 
 import lcm
 
-from limphome import (checkpoint_t, decision_t, episode_t, ground_truth_t, policy_t, reset_request_t, robot_state_t,
-                      status_t, velocity_command_t)
-
+from limphome import (
+    decision_t,
+    episode_t,
+    ground_truth_t,
+    policy_t,
+    reset_request_t,
+    robot_state_t,
+    status_t,
+    velocity_command_t,
+)
 from limphome_lab.channels import COMMAND, DECISION, EPISODE, POLICY, RESET, STATE, STATUS, TRUTH
 
 TYPES = {
@@ -19,7 +26,6 @@ TYPES = {
 }
 
 OUTCOMES = {episode_t.GOAL: "goal", episode_t.TUMBLE: "tumble", episode_t.TIMEOUT: "timeout"}
-
 
 
 def read_log(path):

@@ -62,8 +62,7 @@ def host_port():
     """A port on the host's network, or NetworkError where messages would leave the loopback."""
     if not group_is_on_loopback():
         sudo = "" if os.geteuid() == 0 else "sudo "
-        raise NetworkError(f"messages would not stay on this machine; run once:\n"
-                           f"  {sudo}sh -c '{LOOPBACK_UP}'")
+        raise NetworkError(f"messages would not stay on this machine; run once:\n  {sudo}sh -c '{LOOPBACK_UP}'")
     return free_port()
 
 
@@ -93,6 +92,7 @@ def enter(wanted="private"):
 
 def join_prefix(pid):
     """Words to put before a command to run it in the network of process `pid`."""
+
     def namespace(of, kind):
         return os.readlink(f"/proc/{of}/ns/{kind}")
 

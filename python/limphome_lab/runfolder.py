@@ -85,7 +85,7 @@ class EpisodeTail:
                 text = file.read()
         except FileNotFoundError:
             return []
-        complete = text[:text.rfind(b"\n") + 1]
+        complete = text[: text.rfind(b"\n") + 1]
         lines = complete.decode().splitlines()
         if self._offset == 0 and lines:
             _check_header(self.path, lines.pop(0))

@@ -44,8 +44,9 @@ class Robot:
         self.parts += [_crawler(element, parents[element.get("joint")]) for element in extension.findall("crawler")]
 
     def posed(self, position, orientation, angles):
-        """Parts with their corners in the world; `angles` per actuator, `orientation` (w, x, y, z) body to world."""
-        frames = self.link_frames(position, orientation, dict(zip(self.actuators, angles)))
+        """Parts with their corners in the world; `angles` per actuator (what a message has beyond is left out),
+        `orientation` (w, x, y, z) body to world."""
+        frames = self.link_frames(position, orientation, dict(zip(self.actuators, angles, strict=False)))
         return [Part(part.name, _apply(frames[part.link], part.points), part.link) for part in self.parts]
 
     def link_frames(self, position, orientation, angle_of):
@@ -67,9 +68,13 @@ class Robot:
 def rotation_of(quaternion):
     """[3x3] matrix of a unit quaternion (w, x, y, z)."""
     w, x, y, z = np.asarray(quaternion) / np.linalg.norm(quaternion)
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
 
 
 def rotation_about(axis, angle):
@@ -98,15 +103,20 @@ def _origin(element):
     if origin is None:
         return np.eye(4)
     roll, pitch, yaw = _numbers(origin.get("rpy", "0 0 0"))
-    rotation = (rotation_about([0, 0, 1], yaw) @ rotation_about([0, 1, 0], pitch) @ rotation_about([1, 0, 0], roll))
+    rotation = rotation_about([0, 0, 1], yaw) @ rotation_about([0, 1, 0], pitch) @ rotation_about([1, 0, 0], roll)
     return _frame(rotation, _numbers(origin.get("xyz", "0 0 0")))
 
 
 def _joint(element):
     axis = element.find("axis")
     axis = np.array([1.0, 0.0, 0.0]) if axis is None else _numbers(axis.get("xyz"))
-    return Joint(element.get("name"), element.find("parent").get("link"), element.find("child").get("link"),
-                 _origin(element), axis / np.linalg.norm(axis))
+    return Joint(
+        element.get("name"),
+        element.find("parent").get("link"),
+        element.find("child").get("link"),
+        _origin(element),
+        axis / np.linalg.norm(axis),
+    )
 
 
 def _boxes(link):

@@ -5,8 +5,8 @@ from dataclasses import fields
 
 import pytest
 
-from limphome_lab.show import progress
 from limphome_lab.runfolder import Episode, EpisodeTail, InputError
+from limphome_lab.show import progress
 from limphome_lab.show.summary import summarise
 
 HEADER = ",".join(field.name for field in fields(Episode)) + "\n"
@@ -61,8 +61,13 @@ def test_table_with_another_header_is_refused(table):
 
 
 def test_summary(table):
-    append(table, row(1, "goal", 8, 5, -0.2) + row(2, "timeout", 100, -3, 0.4) + row(3, "tumble", 9, -9, 0.1)
-           + row(4, "goal", 7, 6, 0.3))
+    append(
+        table,
+        row(1, "goal", 8, 5, -0.2)
+        + row(2, "timeout", 100, -3, 0.4)
+        + row(3, "tumble", 9, -9, 0.1)
+        + row(4, "goal", 7, 6, 0.3),
+    )
     summary = summarise(EpisodeTail(table).read_new())
     assert summary["goal_share"] == 0.5
     assert (summary["tumbles"], summary["timeouts"]) == (1, 1)

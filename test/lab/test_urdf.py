@@ -17,7 +17,7 @@ def robot():
 
 
 def tip(robot, position, orientation, swing, boom, arm):
-    angles = dict(zip(robot.actuators, [0, 0, swing, boom, arm]))
+    angles = dict(zip(robot.actuators, [0, 0, swing, boom, arm], strict=True))
     return (robot.link_frames(position, orientation, angles)["arm"] @ [0.8, 0, 0, 1])[:3]
 
 
@@ -43,7 +43,7 @@ def test_body_is_turned_then_moved(robot):
 def test_turning_sprockets_moves_nothing(robot):
     still = robot.posed([0, 0, 0], UPRIGHT, [0, 0, 0.1, 0.2, -0.3])
     rolling = robot.posed([0, 0, 0], UPRIGHT, [7.0, -3.0, 0.1, 0.2, -0.3])
-    assert all(np.array_equal(a.points, b.points) for a, b in zip(still, rolling))
+    assert all(np.array_equal(a.points, b.points) for a, b in zip(still, rolling, strict=True))
 
 
 def test_crawlers_stand_on_the_ground_and_fill_the_size_of_the_robot(robot):

@@ -3,8 +3,8 @@
 Starts COMMAND, a limphome-controller, and answers it in lockstep until it ends. FAULTS is JSON with the probabilities
 of what befalls a message: drop, duplicate, reorder (an earlier state comes again), garbage (a broken copy comes too);
 and `seed`. Prints JSON: the controller's exit code, how many states it answered, how often a command for one
-(session, seq) differed from an earlier one, the episodes that resets were for, how often each fault was done, and how much of the garbage the controller
-must have met: what went out before a state that it answered.
+(session, seq) differed from an earlier one, the episodes that resets were for, how often each fault was done, and how
+much of the garbage the controller must have met: what went out before a state that it answered.
 
 The robot is a point that the right crawler pushes and the swing joint steers.
 """
@@ -19,7 +19,6 @@ from collections import Counter
 import lcm
 
 from limphome import reset_request_t, robot_state_t, velocity_command_t
-
 from limphome_lab.channels import COMMAND, RESET, STATE
 
 LEFT, RIGHT, SWING, BOOM, ARM = range(5)  # actuators
@@ -141,8 +140,18 @@ def main():
         plant.serve(controller)
     finally:
         controller.kill()
-    print(json.dumps({"exit_code": controller.wait(), "answered": len(plant.answers), "differing": plant.differing,
-                      "done": plant.done, "begun": plant.begun, "garbage_met": plant.garbage_met}))
+    print(
+        json.dumps(
+            {
+                "exit_code": controller.wait(),
+                "answered": len(plant.answers),
+                "differing": plant.differing,
+                "done": plant.done,
+                "begun": plant.begun,
+                "garbage_met": plant.garbage_met,
+            }
+        )
+    )
 
 
 if __name__ == "__main__":

@@ -13,7 +13,6 @@ import sys
 import lcm
 
 from limphome import robot_state_t, status_t, velocity_command_t
-
 from limphome_lab.channels import COMMAND, STATE, STATUS
 
 
@@ -32,8 +31,13 @@ class Client:
 
     def _on_state(self, _channel, data):
         state = robot_state_t.decode(data)
-        values = [*state.position, *state.orientation, *state.actuator_position, *state.actuator_velocity,
-                  *state.actuator_effort]
+        values = [
+            *state.position,
+            *state.orientation,
+            *state.actuator_position,
+            *state.actuator_velocity,
+            *state.actuator_effort,
+        ]
         self.all_finite = self.all_finite and all(map(math.isfinite, values))
         key = (state.session, state.seq)
         if key not in self.answers:
@@ -70,9 +74,18 @@ def main():
             pass
     finally:
         simulator.kill()
-    print(json.dumps({"sessions": list(client.sessions.items()), "first_positions": client.first_positions,
-                      "all_finite": client.all_finite, "faults": client.faults,
-                      "fault_session": client.fault_session, "exit_code": simulator.wait()}))
+    print(
+        json.dumps(
+            {
+                "sessions": list(client.sessions.items()),
+                "first_positions": client.first_positions,
+                "all_finite": client.all_finite,
+                "faults": client.faults,
+                "fault_session": client.fault_session,
+                "exit_code": simulator.wait(),
+            }
+        )
+    )
 
 
 if __name__ == "__main__":

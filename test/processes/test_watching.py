@@ -7,8 +7,8 @@ import signal
 import subprocess
 
 import pytest
-from conftest import ROOT, TIME_LIMIT_S, run_script, start_script, wait_until
 
+from conftest import ROOT, TIME_LIMIT_S, run_script, start_script, wait_until
 from limphome_lab import registry
 from limphome_lab.channels import DECISION, STATE
 from limphome_lab.runfolder import RunFolder
@@ -38,8 +38,9 @@ def test_evaluation_needs_a_policy(tmp_path):
 def launched(smoke_run, tmp_path, monkeypatch):
     """scripts/launch, in real time, with its registry to itself."""
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    process = start_script("launch", "--policy", smoke_run.path, "--set", "episode.step_limit=2", "--set",
-                           "episode.decision_period_s=0.1")
+    process = start_script(
+        "launch", "--policy", smoke_run.path, "--set", "episode.step_limit=2", "--set", "episode.decision_period_s=0.1"
+    )
     wait_until(process, registry.running)
     pair = registry.running()[0]
     yield process, pair
@@ -83,8 +84,12 @@ NEEDED = ("javac", "Xvfb", "xdotool")
 
 @pytest.mark.skipif(not all(map(shutil.which, NEEDED)), reason=f"needs {', '.join(NEEDED)}")
 def test_spy_window_decodes_our_types(launched):
-    server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1000x700x24", "-nolisten", "tcp"],
-                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", "1", "-screen", "0", "1000x700x24", "-nolisten", "tcp"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    )
     environment = {**os.environ, "DISPLAY": f":{server.stdout.readline().strip()}"}
 
     def xdotool(*words):

@@ -83,15 +83,22 @@ def decision():
             name = f"decision{suffix}" + ("" if way == "plain_single" else f"_{way}")
             yield lower_is_better(name, ours, "s", median[way], f"one decision, {flags}, against {text}")
         if not suffix:
-            yield lower_is_better("decision_numpy", ours, "s", statistics.median(by_numpy),
-                                  f"one decision, {flags}, against NumPy")
-        yield lower_is_better(f"decision_two_arm{suffix}", median["limphome_two_arm"], "s", 27 * ours,
-                              f"2187 joint actions, {flags}, against 27 times 81")
+            yield lower_is_better(
+                "decision_numpy", ours, "s", statistics.median(by_numpy), f"one decision, {flags}, against NumPy"
+            )
+        yield lower_is_better(
+            f"decision_two_arm{suffix}",
+            median["limphome_two_arm"],
+            "s",
+            27 * ours,
+            f"2187 joint actions, {flags}, against 27 times 81",
+        )
 
 
 def simulator_step():
-    rates, factors = zip(*(map(float, run("bench_simulator", paths.CONFIG / "crawler.urdf").split())
-                           for _ in range(ROUNDS)))
+    rates, factors = zip(
+        *(map(float, run("bench_simulator", paths.CONFIG / "crawler.urdf").split()) for _ in range(ROUNDS)), strict=True
+    )
     rate, factor = statistics.median(rates), statistics.median(factors)
     yield Figure("simulator_step", rate, "1/s", rate / factor, factor, "time steps of the world, against real time")
 
@@ -101,8 +108,13 @@ def lockstep_round_trip(url):
     settings = configparser.ConfigParser()
     settings.read_string(runfolder.resolve_settings(SMOKE, []))
     period = float(settings["episode"]["decision_period_s"])
-    yield lower_is_better("lockstep_round_trip", statistics.median(trips), "s", period,
-                          "state out, command back, against the decision period")
+    yield lower_is_better(
+        "lockstep_round_trip",
+        statistics.median(trips),
+        "s",
+        period,
+        "state out, command back, against the decision period",
+    )
 
 
 def training_run():
@@ -112,32 +124,43 @@ def training_run():
         with tempfile.TemporaryDirectory() as folder:
             out = Path(folder) / "run"
             start = time.monotonic()
-            result = subprocess.run([sys.executable, "-m", "limphome_lab.run.train", "--config", SMOKE, "--out", out, "--quiet"],
-                                    capture_output=True, text=True)
+            result = subprocess.run(
+                [sys.executable, "-m", "limphome_lab.run.train", "--config", SMOKE, "--out", out, "--quiet"],
+                capture_output=True,
+                text=True,
+            )
             wall = time.monotonic() - start
             if result.returncode != 0:
                 raise BenchFailed(f"train: exit code {result.returncode}\n{result.stderr}")
             simulated = sum(episode.duration_s for episode in runfolder.RunFolder(out).read_episodes())
         factors.append(simulated / wall)
     factor = statistics.median(factors)
-    yield Figure("training_run", factor, "s/s", 1.0, factor, "config/smoke.ini from start to figures, against real time")
+    yield Figure(
+        "training_run", factor, "s/s", 1.0, factor, "config/smoke.ini from start to figures, against real time"
+    )
 
 
 def table(figures):
-    rows = [(f.name, f"{f.value:.3g} {f.unit}", f"{f.baseline:.3g} {f.unit}", f"{f.ratio:.1f}", f.what)
-            for f in figures]
+    rows = [
+        (f.name, f"{f.value:.3g} {f.unit}", f"{f.baseline:.3g} {f.unit}", f"{f.ratio:.1f}", f.what) for f in figures
+    ]
     rows.insert(0, ("name", "value", "baseline", "ratio", "what"))
-    widths = [max(map(len, column)) for column in zip(*rows)]
-    return "\n".join("  ".join(cell.rjust(width) if 0 < i < 4 else cell.ljust(width)
-                               for i, (cell, width) in enumerate(zip(row, widths))).rstrip() for row in rows)
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return "\n".join(
+        "  ".join(
+            cell.rjust(width) if 0 < i < 4 else cell.ljust(width)
+            for i, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        for row in rows
+    )
 
 
 def parse_arguments():
     parser = command.parser(
-        "bench", "Measures speed, each figure against a baseline of the same run.", "--json bench.json")
+        "bench", "Measures speed, each figure against a baseline of the same run.", "--json bench.json"
+    )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write name, value, unit, baseline and ratio of each")
-    parser.add_argument("--network", choices=("private", "host"), default="private",
-                        help="as for train")
+    parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
     return parser.parse_args()
 
 

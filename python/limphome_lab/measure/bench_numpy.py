@@ -1,4 +1,4 @@
-"""One decision of the paper's learner in NumPy: Q of 81 joint actions, Boltzmann selection (3), one update (19)-(21)."""
+"""One decision of the paper's learner in NumPy: Q of 81 joint actions, Boltzmann selection (3), update (19)-(21)."""
 
 import itertools
 import time

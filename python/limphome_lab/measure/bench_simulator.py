@@ -1,6 +1,6 @@
 """Speed of the simulator beside MuJoCo and PyBullet: the same robot and the same random actions, in turns, in one run.
 
-    PYTHONPATH=python .venv/bin/python -m limphome_lab.measure.bench_simulator
+PYTHONPATH=python .venv/bin/python -m limphome_lab.measure.bench_simulator
 """
 
 import os
@@ -92,13 +92,24 @@ def measure():
     simulated = DECISIONS * PERIOD
     ours = statistics.median(seconds["limphome"])
     for name, (_, time_step) in rivals.items():
-        ratio = statistics.median(theirs / own for theirs, own in zip(seconds[name], seconds["limphome"]))
+        ratio = statistics.median(theirs / own for theirs, own in zip(seconds[name], seconds["limphome"], strict=True))
         theirs = statistics.median(seconds[name])
-        yield {"name": f"simulator_step_real_time_factor_{name}", "value": simulated / ours, "unit": "s/s",
-               "baseline": simulated / theirs, "ratio": ratio, "what": f"simulated over processor time, against {name}"}
-        yield {"name": f"simulator_step_{name}", "value": simulated / ours / OUR_STEP, "unit": "1/s",
-               "baseline": simulated / theirs / time_step, "ratio": ratio * time_step / OUR_STEP,
-               "what": f"time steps of {1e3 * OUR_STEP:g} ms, against {name}'s of {1e3 * time_step:.3g} ms"}
+        yield {
+            "name": f"simulator_step_real_time_factor_{name}",
+            "value": simulated / ours,
+            "unit": "s/s",
+            "baseline": simulated / theirs,
+            "ratio": ratio,
+            "what": f"simulated over processor time, against {name}",
+        }
+        yield {
+            "name": f"simulator_step_{name}",
+            "value": simulated / ours / OUR_STEP,
+            "unit": "1/s",
+            "baseline": simulated / theirs / time_step,
+            "ratio": ratio * time_step / OUR_STEP,
+            "what": f"time steps of {1e3 * OUR_STEP:g} ms, against {name}'s of {1e3 * time_step:.3g} ms",
+        }
 
 
 def main():

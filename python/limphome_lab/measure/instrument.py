@@ -7,6 +7,7 @@ import subprocess
 import numpy as np
 
 from limphome_lab import paths
+from limphome_lab.measure.validation.statics import GRAVITY
 from limphome_lab.urdf import rotation_of
 
 PAPER = paths.CONFIG / "paper.ini"
@@ -62,9 +63,9 @@ class Instrument:
     def gravity(self, vector):
         self._say("gravity", vector)
 
-    def slope(self, angle, gravity=9.81):
+    def slope(self, angle):
         """Level ground as the robot finds it that faces up a slope of `angle`."""
-        self.gravity((0, -gravity * math.sin(angle), -gravity * math.cos(angle)))
+        self.gravity((0, -GRAVITY * math.sin(angle), -GRAVITY * math.cos(angle)))
 
     def lift(self, height):
         self._say("lift", [height])

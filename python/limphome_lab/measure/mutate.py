@@ -63,8 +63,8 @@ def stem_below(file, folder):
 
 
 def build_rules(sources, tests):
-    """What ninja must know: the library from its sources and its tests {name: source} with default capacities, and those
-    of SMALL. Sources are named by path without the ending."""
+    """What ninja must know: the library from its sources and its tests {name: source} with default capacities, and
+    those of SMALL. Sources are named by path without the ending."""
     text = RULES
     for more in ["", *SMALL.values()]:
         folder = f"build{more}"

@@ -31,8 +31,11 @@ def compare_engines():
     except ImportError as error:
         print(f"comparison with MuJoCo skipped: {error}", file=sys.stderr)
         return None
-    return {"comparison": [row.as_dict() for row in engines.compare()], "by_speed": engines.skid_by_speed(),
-            "speeds": list(engines.SPEEDS)}
+    return {
+        "comparison": [row.as_dict() for row in engines.compare()],
+        "by_speed": engines.skid_by_speed(),
+        "speeds": list(engines.SPEEDS),
+    }
 
 
 @with_exit_code

@@ -21,8 +21,9 @@ def parse_arguments():
     parser.add_argument("--config", help="experiment (INI); default config/paper.ini, or the run's")
     parser.add_argument("--robot", help="robot (URDF); default config/crawler.urdf, or the run's")
     parser.add_argument("--policy", metavar="RUN", help="drive with the policy of this run instead of learning")
-    parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE",
-                        help="one setting; repeatable")
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="one setting; repeatable"
+    )
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
     return parser.parse_args()
 
@@ -39,16 +40,22 @@ def make_folder(args):
 
 
 def show(episode):
-    print(f"episode {episode.episode}: {episode.outcome} after {episode.duration_s:.1f} s, "
-          f"{abs(episode.lateral_error_m):.2f} m beside the line, reward {episode.reward:.2f}", flush=True)
+    print(
+        f"episode {episode.episode}: {episode.outcome} after {episode.duration_s:.1f} s, "
+        f"{abs(episode.lateral_error_m):.2f} m beside the line, reward {episode.reward:.2f}",
+        flush=True,
+    )
 
 
 def launch(folder, url, options):
     tail = runfolder.EpisodeTail(folder.episodes)
     with Pair(folder, url, options) as pair:
         spy = command.called("spy")
-        print(f"running in {paths.shown(folder.path)}; Ctrl-C ends it\n"
-              f"watch the messages from another terminal with {spy}, or {spy} --text", flush=True)
+        print(
+            f"running in {paths.shown(folder.path)}; Ctrl-C ends it\n"
+            f"watch the messages from another terminal with {spy}, or {spy} --text",
+            flush=True,
+        )
         while not pair.finished():
             for episode in tail.read_new():
                 show(episode)

@@ -29,11 +29,19 @@ class Part:
         """Call when both processes have ended. `result`: finished, interrupted or failed; `simulated_s`: duration of
         all episodes done."""
         self.wall_time_s = time.monotonic() - self._began
-        part = {"started": self.started, "command_line": sys.orig_argv, "result": result,
-                "wall_time_s": round(self.wall_time_s, 3), "simulated_time_s": simulated_s}
+        part = {
+            "started": self.started,
+            "command_line": sys.orig_argv,
+            "result": result,
+            "wall_time_s": round(self.wall_time_s, 3),
+            "simulated_time_s": simulated_s,
+        }
         statuses = last_statuses(self.folder.messages)
-        new = [statuses[process] for process in PROCESSES
-               if process in statuses and not _equal(statuses[process], self.before.get(process))]
+        new = [
+            statuses[process]
+            for process in PROCESSES
+            if process in statuses and not _equal(statuses[process], self.before.get(process))
+        ]
         return part | measures(*new) if len(new) == 2 else part
 
 
@@ -53,8 +61,9 @@ def last_statuses(recording):
 
 def measures(plant, controller):
     """What the two processes say of their own work."""
-    simulator_share, controller_share = ((each.wall_time - each.wait_time) / each.wall_time
-                                         for each in (plant, controller))
+    simulator_share, controller_share = (
+        (each.wall_time - each.wait_time) / each.wall_time for each in (plant, controller)
+    )
     return {
         "decisions": controller.decisions,
         "simulator_share": simulator_share,
@@ -62,8 +71,10 @@ def measures(plant, controller):
         # in lockstep one of the two works while the other waits; where both wait, a message is under way
         # the rest; nothing where the two work side by side more than both wait
         "link_share": max(0.0, 1.0 - simulator_share - controller_share),
-        "counters": {name: {counter: getattr(status, counter) for counter in COUNTERS}
-                     for name, status in zip(PROCESSES, (plant, controller), strict=True)},
+        "counters": {
+            name: {counter: getattr(status, counter) for counter in COUNTERS}
+            for name, status in zip(PROCESSES, (plant, controller), strict=True)
+        },
     }
 
 
@@ -86,9 +97,25 @@ def totals(parts):
 
 PROCESSES = ("simulator", "controller")
 SHARES = ("simulator_share", "controller_share", "link_share")  # of wall time
-COUNTERS = ("received", "rejected_malformed", "rejected_non_finite", "rejected_session", "rejected_sender",
-            "duplicates", "resent", "late", "clamped", "clamped_inputs", "clamped_temperatures", "clamped_margins",
-            "clamped_weights", "clamped_widths", "clamped_centres", "saturated", "faults")
+COUNTERS = (
+    "received",
+    "rejected_malformed",
+    "rejected_non_finite",
+    "rejected_session",
+    "rejected_sender",
+    "duplicates",
+    "resent",
+    "late",
+    "clamped",
+    "clamped_inputs",
+    "clamped_temperatures",
+    "clamped_margins",
+    "clamped_weights",
+    "clamped_widths",
+    "clamped_centres",
+    "saturated",
+    "faults",
+)
 
 
 def begin_manifest(folder, config):

@@ -17,8 +17,9 @@ class PairFailed(Ending):
     def __init__(self, child):
         code = child.exit_code()
         how = f"exit code {code}" if code >= 0 else f"signal {signal.Signals(-code).name}"
-        super().__init__(f"limphome-{child.name} ended early ({how}); the end of {paths.shown(child.log)}:\n"
-                         f"{child.log_tail()}")
+        super().__init__(
+            f"limphome-{child.name} ended early ({how}); the end of {paths.shown(child.log)}:\n{child.log_tail()}"
+        )
         self.exit_code = BAD_INPUT if code == BAD_INPUT else 1
 
 
@@ -35,8 +36,9 @@ class Pair:
         self.entry = registry.register(self.folder.path, self.url)
         self.children = []
         self.simulator = self._start("simulator", [paths.program("simulator"), *common])
-        self.controller = self._start("controller", [paths.program("controller"), *common, "--out", self.folder.path,
-                                                     *self.controller_options])
+        self.controller = self._start(
+            "controller", [paths.program("controller"), *common, "--out", self.folder.path, *self.controller_options]
+        )
         return self
 
     def _start(self, name, command):
@@ -75,4 +77,3 @@ class Pair:
         """After the controller has finished: ends the simulator, which must go without complaint."""
         if self.simulator.stop() != 0:
             raise PairFailed(self.simulator)
-

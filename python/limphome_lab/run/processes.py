@@ -42,8 +42,14 @@ class Child:
         self.log = log
         # a session of its own: Ctrl-C in the terminal reaches this process alone, which ends its children in order
         with open(log, "ab") as output:
-            self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output,
-                                            stderr=subprocess.STDOUT, start_new_session=True, preexec_fn=_prepare)
+            self.process = subprocess.Popen(
+                command,
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+                preexec_fn=_prepare,
+            )
 
     def exit_code(self):
         """None while it runs; negative where a signal ended it."""

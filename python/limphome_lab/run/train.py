@@ -12,17 +12,22 @@ from limphome_lab.show.progress import Progress, clock
 
 
 def parse_arguments():
-    parser = command.parser("train", "Trains a policy and leaves a run folder.", "--config config/smoke.ini --seed 2")
+    parser = command.parser("train", "Trains a policy and leaves a run folder.", "--seed 2 --episodes 100")
     parser.add_argument("--config", help="experiment (INI); default config/paper.ini")
     parser.add_argument("--robot", help="robot (URDF); default config/crawler.urdf")
     parser.add_argument("--episodes", type=int, help="how many; short for --set learning.episodes=N")
     parser.add_argument("--seed", type=int, help="of every random number; short for --set learning.seed=N")
-    parser.add_argument("--set", action="append", default=[], metavar="SECTION.KEY=VALUE",
-                        help="one setting; repeatable")
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="one setting; repeatable"
+    )
     parser.add_argument("--out", metavar="DIR", help="run folder to make; default runs/<config>-seed<N>-<time>")
     parser.add_argument("--resume", metavar="DIR", help="run folder to go on with, from its newest checkpoint")
-    parser.add_argument("--network", choices=("private", "host"), default="private",
-                        help="a network namespace of its own (default), or a port of its own on the host's network")
+    parser.add_argument(
+        "--network",
+        choices=("private", "host"),
+        default="private",
+        help="a network namespace of its own (default), or a port of its own on the host's network",
+    )
     parser.add_argument("--quiet", action="store_true", help="no progress")
     args = parser.parse_args()
     if args.resume and (args.config or args.robot or args.out or args.set or args.seed is not None):
@@ -89,13 +94,16 @@ def how_to_go_on(folder):
     checkpoint = folder.newest_checkpoint()
     if checkpoint == 0:
         return "interrupted before the first checkpoint: it cannot be resumed"
-    return f"interrupted; {command.called('train')} --resume {paths.shown(folder.path)} goes on from episode {checkpoint}"
+    return (
+        f"interrupted; {command.called('train')} --resume {paths.shown(folder.path)} goes on from episode {checkpoint}"
+    )
 
 
 def draw(folder):
     """Draws what can be drawn; a run that ended before its first episode has nothing to show."""
     if folder.read_episodes():
         from limphome_lab.show.figures import draw_all  # matplotlib takes most of a second to load
+
         draw_all(folder)
 
 

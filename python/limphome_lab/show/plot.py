@@ -15,6 +15,7 @@ def main():
     if not folder.read_episodes():
         raise runfolder.InputError(f"{args.run}: no episode has ended, so there is nothing to draw")
     from limphome_lab.show.figures import draw_all  # matplotlib takes most of a second to load
+
     for file in draw_all(folder):
         print(paths.shown(file))
     return 0

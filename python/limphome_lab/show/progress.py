@@ -71,8 +71,10 @@ class Progress:
         goals = sum(episode.outcome == "goal" for episode in episodes) / len(episodes)
         reward = statistics.median(episode.reward for episode in episodes)
         factor = self.simulated_s / max(now - self.began, 1e-3)
-        return (f"{text} last {len(episodes)}: goals {goals:4.0%}, reward {reward:7.2f} | {factor:4.0f}x real time, "
-                f"{clock(now - self.began)}, {self._left(now)} left")
+        return (
+            f"{text} last {len(episodes)}: goals {goals:4.0%}, reward {reward:7.2f} | {factor:4.0f}x real time, "
+            f"{clock(now - self.began)}, {self._left(now)} left"
+        )
 
     def _left(self, now):
         """Time left at the pace of the recent episodes, which get shorter as the robot learns."""

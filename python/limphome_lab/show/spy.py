@@ -39,6 +39,7 @@ def main():
         words = [sys.executable, "-m", "limphome_lab.show.spy_text", pair["url"]]
     else:
         from limphome_lab.show.spy_window import window_command
+
         words = window_command(pair["url"])
     print(f"watching {paths.shown(pair['run'])}", file=sys.stderr, flush=True)
     words = [*network.join_prefix(pair["pid"]), *words]

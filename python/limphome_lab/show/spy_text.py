@@ -47,8 +47,10 @@ class TextSpy:
     def screen(self, seconds):
         lines = [f"{'channel':<20} {'messages':>10} {'Hz':>9} {'kB/s':>9}"]
         for name, channel in sorted(self.channels.items()):
-            lines.append(f"{name:<20} {channel.total:>10} {channel.count / seconds:>9.1f} "
-                         f"{channel.octets / seconds / 1000:>9.1f}")
+            lines.append(
+                f"{name:<20} {channel.total:>10} {channel.count / seconds:>9.1f} "
+                f"{channel.octets / seconds / 1000:>9.1f}"
+            )
             channel.count = channel.octets = 0
         for name, channel in sorted(self.channels.items()):
             lines += ["", name, *(f"  {line}" for line in values(name, channel.newest))]
@@ -84,7 +86,7 @@ def main():
         lines = spy.screen(spy.watch(EVERY_S))
         if sys.stdout.isatty():
             columns, rows = shutil.get_terminal_size()
-            print(CLEAR + "\n".join(line[:columns] for line in lines[:rows - 1]), end="", flush=True)
+            print(CLEAR + "\n".join(line[:columns] for line in lines[: rows - 1]), end="", flush=True)
         else:
             print("\n".join(lines) + "\n", flush=True)
 

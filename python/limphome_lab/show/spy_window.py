@@ -29,8 +29,15 @@ def window_command(url):
     make_types_jar()
     # lcm-spy looks through the class path for message types, so that holds ours alone
     libraries = os.pathsep.join(map(str, sorted(JARS.glob("*.jar"))))
-    return ["java", "-Djava.net.preferIPv4Stack=true", f"-Xbootclasspath/a:{libraries}", "-cp", str(TYPES),
-            "lcm.spy.Spy", f"--lcm-url={url}"]
+    return [
+        "java",
+        "-Djava.net.preferIPv4Stack=true",
+        f"-Xbootclasspath/a:{libraries}",
+        "-cp",
+        str(TYPES),
+        "lcm.spy.Spy",
+        f"--lcm-url={url}",
+    ]
 
 
 def make_types_jar():

@@ -19,10 +19,24 @@ FIGURES = {
     "fig9_motion": "Motion in the last episode (Fig. 9)",
     "fig_learning": "Duration, lateral error and share of goals",
 }
-LEARNING_COLUMNS = ("seed", "episodes", "reached the goal [%]", "duration [s]", "lateral error [m]", "total reward",
-                    "tumbles")
-COST_COLUMNS = ("seed", "wall time", "times real time", "decisions", "decisions/s", "wall time in simulator + controller + link",
-                "revision")
+LEARNING_COLUMNS = (
+    "seed",
+    "episodes",
+    "reached the goal [%]",
+    "duration [s]",
+    "lateral error [m]",
+    "total reward",
+    "tumbles",
+)
+COST_COLUMNS = (
+    "seed",
+    "wall time",
+    "times real time",
+    "decisions",
+    "decisions/s",
+    "wall time in simulator + controller + link",
+    "revision",
+)
 
 
 class Run:
@@ -61,22 +75,34 @@ def learning_row(run):
         return f"{first[name] * factor:{form}} → {last[name] * factor:{form}}"
 
     tumbles = sum(episode.outcome == "tumble" for episode in run.episodes)
-    return (run.seed, len(run.episodes), both("goal_share", ".0f", 100), both("median_duration_s", ".1f"),
-            both("median_lateral_error_m", ".2f"), both("median_reward", ".2f"),
-            f"{first['tumbles']} → {last['tumbles']} ({tumbles} in all)")
+    return (
+        run.seed,
+        len(run.episodes),
+        both("goal_share", ".0f", 100),
+        both("median_duration_s", ".1f"),
+        both("median_lateral_error_m", ".2f"),
+        both("median_reward", ".2f"),
+        f"{first['tumbles']} → {last['tumbles']} ({tumbles} in all)",
+    )
 
 
 def cost_row(run):
     manifest = run.manifest
     commit, dirty = manifest["revision"]["commit"], manifest["revision"]["dirty"]
-    return (run.seed, clock(manifest["wall_time_s"]), f"{manifest['real_time_factor']:.0f}", manifest["decisions"],
-            f"{manifest['decisions_per_s']:.0f}", " + ".join(f"{manifest[share]:.0%}" for share in SHARES),
-            f"`{(commit or 'unknown')[:10]}`" + (" with changes" if dirty else ""))
+    return (
+        run.seed,
+        clock(manifest["wall_time_s"]),
+        f"{manifest['real_time_factor']:.0f}",
+        manifest["decisions"],
+        f"{manifest['decisions_per_s']:.0f}",
+        " + ".join(f"{manifest[share]:.0%}" for share in SHARES),
+        f"`{(commit or 'unknown')[:10]}`" + (" with changes" if dirty else ""),
+    )
 
 
 def best(runs):
     """The run that ended with the largest median reward: the one whose figures are shown."""
-    return max(runs, key=lambda run: summarise(run.episodes[-stretch(run.episodes):])["median_reward"])
+    return max(runs, key=lambda run: summarise(run.episodes[-stretch(run.episodes) :])["median_reward"])
 
 
 def copy_figures(run, note):
@@ -94,25 +120,35 @@ def copy_figures(run, note):
 def draw_seeds(name, runs):
     """Markdown that shows how the reward went on every seed."""
     from limphome_lab.show.figures import reward, style  # matplotlib takes most of a second to load
+
     image = f"{name}-seeds.png"
     style.save(reward.draw_seeds({run.seed: run.episodes for run in runs}), DOCS / "images" / image)
-    return f"![Total reward on every seed](images/{image})\n\n*Running median of the total reward on every seed; {name}.*"
+    return (
+        f"![Total reward on every seed](images/{image})\n\n*Running median of the total reward on every seed; {name}.*"
+    )
 
 
 def section(name, runs):
     counts = sorted({stretch(run.episodes) for run in runs})
-    machines = sorted({f"{run.manifest['machine']['cpu']}, {run.manifest['machine']['cores']} cores, "
-                       f"{run.manifest['machine']['os']}" for run in runs})
-    return "\n\n".join([
-        f"## {name}",
-        f"First → last {' or '.join(map(str, counts))} episodes of each run; duration, lateral error (its magnitude) "
-        "and reward are medians.",
-        markdown_table(LEARNING_COLUMNS, map(learning_row, runs)),
-        f"What it took, on {'; '.join(machines)}:",
-        markdown_table(COST_COLUMNS, map(cost_row, runs)),
-        copy_figures(best(runs), ", which ended best" if len(runs) > 1 else ""),
-        draw_seeds(name, runs),
-    ])
+    machines = sorted(
+        {
+            f"{run.manifest['machine']['cpu']}, {run.manifest['machine']['cores']} cores, "
+            f"{run.manifest['machine']['os']}"
+            for run in runs
+        }
+    )
+    return "\n\n".join(
+        [
+            f"## {name}",
+            f"First → last {' or '.join(map(str, counts))} episodes of each run; duration, lateral error (its "
+            "magnitude) and reward are medians.",
+            markdown_table(LEARNING_COLUMNS, map(learning_row, runs)),
+            f"What it took, on {'; '.join(machines)}:",
+            markdown_table(COST_COLUMNS, map(cost_row, runs)),
+            copy_figures(best(runs), ", which ended best" if len(runs) > 1 else ""),
+            draw_seeds(name, runs),
+        ]
+    )
 
 
 def document(runs):

@@ -21,11 +21,13 @@ def test_table_names_every_figure():
 def test_numpy_evaluates_every_action_as_the_plain_loop():
     learner = bench_numpy.Learner()
     states = learner.random.uniform(0, 1, bench_numpy.STATES)
-    learner.inputs[:, :bench_numpy.STATES] = states
+    learner.inputs[:, : bench_numpy.STATES] = states
     q = learner.activations(learner.inputs)[0] @ learner.weight
-    for x, value in zip(learner.inputs, q):
-        expected = sum(w * np.exp(-((x - mu) ** 2).sum() / sigma**2)
-                       for w, mu, sigma in zip(learner.weight, learner.centre, learner.width))
+    for x, value in zip(learner.inputs, q, strict=True):
+        expected = sum(
+            w * np.exp(-((x - mu) ** 2).sum() / sigma**2)
+            for w, mu, sigma in zip(learner.weight, learner.centre, learner.width, strict=True)
+        )
         assert value == pytest.approx(expected, rel=1e-12, abs=1e-12)
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from limphome_lab.measure import validate
-from limphome_lab.measure.validation import cases, statics
 from limphome_lab.measure.instrument import CRAWLER, LEFT_LOCKED, RIGHT, Instrument
+from limphome_lab.measure.validation import cases, statics
 
 
 def test_three_points_bear_by_the_lever_rule():

@@ -37,6 +37,6 @@ def test_convex_hull_of_a_square_with_points_inside():
 def test_convex_hull_holds_every_point_on_its_left():
     points = np.random.default_rng(2).normal(size=(200, 2))
     hull = convex_hull(points)
-    for a, b in zip(hull, np.roll(hull, -1, axis=0)):
+    for a, b in zip(hull, np.roll(hull, -1, axis=0), strict=True):
         edge, to_points = b - a, points - a
         assert (edge[0] * to_points[:, 1] - edge[1] * to_points[:, 0] >= -1e-12).all()

@@ -4,12 +4,20 @@ import json
 
 import pytest
 
-from limphome_lab.study import results
 from limphome_lab.runfolder import Episode, InputError
+from limphome_lab.study import results
 
 MANIFEST = {
-    "config": "paper", "seed": 1, "result": "finished", "wall_time_s": 3725.0, "real_time_factor": 41.4,
-    "decisions": 1234, "decisions_per_s": 20.6, "simulator_share": 0.77, "controller_share": 0.11, "link_share": 0.12,
+    "config": "paper",
+    "seed": 1,
+    "result": "finished",
+    "wall_time_s": 3725.0,
+    "real_time_factor": 41.4,
+    "decisions": 1234,
+    "decisions_per_s": 20.6,
+    "simulator_share": 0.77,
+    "controller_share": 0.11,
+    "link_share": 0.12,
     "revision": {"commit": "a" * 40, "dirty": True},
     "machine": {"cpu": "Some CPU", "cores": 4, "os": "Debian"},
 }
@@ -22,8 +30,9 @@ def make_run(path, seed=1, **changes):
         (path / "figures" / f"{name}.png").write_bytes(b"image of seed %d" % seed)
     for name in ("config.ini", "robot.urdf"):
         (path / name).write_text("")
-    rows = [f"{n},{'tumble' if n <= 4 else 'goal'},{200 - n},{100 - n},{n - 20},0,0,0,0,{-1 / n},0,1"
-            for n in range(1, 41)]
+    rows = [
+        f"{n},{'tumble' if n <= 4 else 'goal'},{200 - n},{100 - n},{n - 20},0,0,0,0,{-1 / n},0,1" for n in range(1, 41)
+    ]
     header = ",".join(Episode.__dataclass_fields__)
     (path / "episodes.csv").write_text("\n".join([header, *rows]) + "\n")
     (path / "manifest.json").write_text(json.dumps({**MANIFEST, "seed": seed, **changes}))
@@ -61,8 +70,12 @@ def test_figures_are_copied_beside_the_page(tmp_path, docs):
 def test_figures_are_those_of_the_seed_that_ended_best(tmp_path, docs):
     poor, good = make_run(tmp_path / "poor", 1), make_run(tmp_path / "good", 2)
     rows = (poor / "episodes.csv").read_text().splitlines()
-    (poor / "episodes.csv").write_text("\n".join([*rows[:-4], *(row.replace("goal", "timeout").replace(
-        row.split(",")[4], "-150") for row in rows[-4:])]) + "\n")
+    (poor / "episodes.csv").write_text(
+        "\n".join(
+            [*rows[:-4], *(row.replace("goal", "timeout").replace(row.split(",")[4], "-150") for row in rows[-4:])]
+        )
+        + "\n"
+    )
     text = results.document([results.Run(poor), results.Run(good)])
     assert "](images/paper-seed2-fig8_reward.png)" in text
     assert "](images/paper-seeds.png)" in text

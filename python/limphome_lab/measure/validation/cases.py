@@ -5,8 +5,8 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from limphome_lab.measure.validation import statics
 from limphome_lab.measure.instrument import CRAWLER, LEFT, LEFT_FREE, LEFT_LOCKED, RIGHT, SOUND, Instrument
+from limphome_lab.measure.validation import statics
 from limphome_lab.measure.validation.robots import base_centre_at, changed_robot, torque_limits
 
 G = statics.GRAVITY
@@ -46,10 +46,24 @@ def free_fall():
         end = plant.report()
     yield Quantity("free fall", "speed after 0.7 s, arm moving", "m/s", "g t", G * 0.7, -end.velocity[2], 1e-3)
     # velocities are those at the end of each time step: the way is one half step's fall longer
-    yield Quantity("free fall", "height lost", "m", "g t (t + time step) / 2", 0.5 * G * 0.7 * 0.705,
-                   (start.centre_of_mass - end.centre_of_mass)[2], 1e-3)
-    yield Quantity("free fall", "sideways drift", "m", "none", 0,
-                   np.linalg.norm((start.centre_of_mass - end.centre_of_mass)[:2]), 1e-3)
+    yield Quantity(
+        "free fall",
+        "height lost",
+        "m",
+        "g t (t + time step) / 2",
+        0.5 * G * 0.7 * 0.705,
+        (start.centre_of_mass - end.centre_of_mass)[2],
+        1e-3,
+    )
+    yield Quantity(
+        "free fall",
+        "sideways drift",
+        "m",
+        "none",
+        0,
+        np.linalg.norm((start.centre_of_mass - end.centre_of_mass)[:2]),
+        1e-3,
+    )
 
 
 def rest():
@@ -76,8 +90,15 @@ def straight_drive():
     yield Quantity("straight drive", "speed", "m/s", "belt speed", SPEED, moved[1] / 10, 1e-3 * SPEED)
     yield Quantity("straight drive", "sideways in 3 m", "mm", "none", 0, 1e3 * moved[0], 1)
     # The drives may hold each other in a grip that Coulomb's law leaves open; on the robot it has no effect.
-    yield Quantity("straight drive", "torque of both drives", "N m", "none: nothing resists", 0,
-                   end.actuator_effort[[LEFT, RIGHT]].sum(), 0.5)
+    yield Quantity(
+        "straight drive",
+        "torque of both drives",
+        "N m",
+        "none: nothing resists",
+        0,
+        end.actuator_effort[[LEFT, RIGHT]].sum(),
+        0.5,
+    )
 
 
 def _turn(case, settings, speeds, machine, mu, robot=CRAWLER):
@@ -89,8 +110,15 @@ def _turn(case, settings, speeds, machine, mu, robot=CRAWLER):
         rate, end = plant.turning_rate(3, *commands)
     torque = pull[RIGHT] * machine.crawlers[RIGHT].radius
     yield Quantity(case, "yaw rate", "rad/s", "least power", motion[2], rate, max(5e-3 * abs(motion[2]), 1e-6))
-    yield Quantity(case, "torque of the right drive", "N m", "least power", torque, end.actuator_effort[RIGHT],
-                   max(5e-3 * abs(torque), 0.5))
+    yield Quantity(
+        case,
+        "torque of the right drive",
+        "N m",
+        "least power",
+        torque,
+        end.actuator_effort[RIGHT],
+        max(5e-3 * abs(torque), 0.5),
+    )
 
 
 def locked_crawler():
@@ -124,8 +152,9 @@ def rolling_down():
             speed = -plant.report().velocity[1]
     rotors = sum(machine.sprocket_inertia / crawler.radius**2 for crawler in machine.crawlers)
     expected = 2 * G * math.sin(angle) * machine.mass / (machine.mass + rotors)
-    yield Quantity("both free on 20 deg", "speed after 2 s", "m/s", "g t sin(a) m / (m + J/r^2)", expected, speed,
-                   5e-3 * expected)
+    yield Quantity(
+        "both free on 20 deg", "speed after 2 s", "m/s", "g t sin(a) m / (m + J/r^2)", expected, speed, 5e-3 * expected
+    )
 
 
 def drawbar_pull():
@@ -139,11 +168,19 @@ def drawbar_pull():
         plant.run(0.5, SPEED, SPEED)
         end = plant.report()
     pull = mu * machine.weight
+    torque = pull * machine.crawlers[RIGHT].radius
     effort = end.actuator_effort[[LEFT, RIGHT]].sum()
     yield Quantity("drawbar pull", "pull, belts slipping", "N", "mu m g", pull, end.forces()[:, 1].sum(), 2e-3 * pull)
-    yield Quantity("drawbar pull", "torque of both drives", "N m", "mu m g r", pull * 0.18, effort, 5e-3 * pull * 0.18)
-    yield Quantity("drawbar pull", "acceleration", "m/s^2", "mu g - 1.2 mu g", -0.2 * mu * G,
-                   (end.velocity - before.velocity)[1] / 0.5, 0.01)
+    yield Quantity("drawbar pull", "torque of both drives", "N m", "mu m g r", torque, effort, 5e-3 * torque)
+    yield Quantity(
+        "drawbar pull",
+        "acceleration",
+        "m/s^2",
+        "mu g - 1.2 mu g",
+        -0.2 * mu * G,
+        (end.velocity - before.velocity)[1] / 0.5,
+        0.01,
+    )
 
 
 def _limit(holds, low, high, resolution):
@@ -175,9 +212,10 @@ def slopes():
         plant.slope(math.radians(15))
         plant.run(4, SPEED, SPEED)
         torque = plant.report().actuator_effort[[LEFT, RIGHT]].sum()
-    expected = machine.weight * math.sin(math.radians(15)) * 0.18
-    yield Quantity("slope of 15 deg", "torque of both drives climbing", "N m", "m g r sin(a)", expected, torque,
-                   2e-3 * expected)
+    expected = machine.weight * math.sin(math.radians(15)) * machine.crawlers[RIGHT].radius
+    yield Quantity(
+        "slope of 15 deg", "torque of both drives climbing", "N m", "m g r sin(a)", expected, torque, 2e-3 * expected
+    )
 
 
 def stall():
@@ -185,9 +223,10 @@ def stall():
     machine = statics.Machine(CRAWLER)
     with changed_robot(torque_limits(300, "left_crawler", "right_crawler")) as robot:
         steepest = _limit(lambda a: _speed_uphill(a, SOUND, SPEED, robot) > 1e-3, 10, 30, 0.02)
-    expected = math.degrees(math.asin(2 * 300 / (0.18 * machine.weight)))
-    yield Quantity("drives limited to 300 N m", "steepest it climbs", "deg", "asin(2 T / (r m g))", expected, steepest,
-                   0.05)
+    expected = math.degrees(math.asin(2 * 300 / (machine.crawlers[RIGHT].radius * machine.weight)))
+    yield Quantity(
+        "drives limited to 300 N m", "steepest it climbs", "deg", "asin(2 T / (r m g))", expected, steepest, 0.05
+    )
 
     def stalls(torque):
         with changed_robot(torque_limits(torque, "right_crawler")) as weak, Instrument(LEFT_LOCKED, weak) as plant:
@@ -195,9 +234,16 @@ def stall():
             return plant.report().actuator_velocity[RIGHT] < 0.01
 
     _, pull = statics.least_power(statics.on_crawlers(machine, MU), (0, SPEED))
-    expected = 0.18 * pull[RIGHT]
-    yield Quantity("left locked", "torque limit below which it stalls", "N m", "least power", expected,
-                   _limit(stalls, 0.8 * expected, 1.2 * expected, 0.5), 5e-3 * expected)
+    expected = machine.crawlers[RIGHT].radius * pull[RIGHT]
+    yield Quantity(
+        "left locked",
+        "torque limit below which it stalls",
+        "N m",
+        "least power",
+        expected,
+        _limit(stalls, 0.8 * expected, 1.2 * expected, 0.5),
+        5e-3 * expected,
+    )
 
 
 def press_down(plant):
@@ -230,11 +276,25 @@ def arm_pressed():
     _, load = three_points(machine, report)
     tip = report.forces(part=4)[:, 2].sum()
     crawler = sorted(report.forces(part=RIGHT)[:, 2])
-    yield Quantity("arm pressed down", "load left on the left crawler", "N", "none: lifted", 0,
-                   report.forces(part=LEFT)[:, 2].sum(), 0)
+    yield Quantity(
+        "arm pressed down",
+        "load left on the left crawler",
+        "N",
+        "none: lifted",
+        0,
+        report.forces(part=LEFT)[:, 2].sum(),
+        0,
+    )
     yield Quantity("arm pressed down", "load on the tip", "N", "lever rule", load[0], tip, 2e-3 * load[0])
-    yield Quantity("arm pressed down", "load on the right crawler, lighter end", "N", "lever rule", min(load[1:]),
-                   crawler[0], 2e-3 * load[1])
+    yield Quantity(
+        "arm pressed down",
+        "load on the right crawler, lighter end",
+        "N",
+        "lever rule",
+        min(load[1:]),
+        crawler[0],
+        2e-3 * load[1],
+    )
 
 
 def lifting_drive():
@@ -246,11 +306,20 @@ def lifting_drive():
         start = plant.report()
         rate, end = plant.turning_rate(1, 0, SPEED)
     motion, pull = statics.least_power(lifted_footing(machine, end), (0, SPEED))
-    torque = 0.18 * pull[RIGHT]
+    torque = machine.crawlers[RIGHT].radius * pull[RIGHT]
     yield Quantity("lifting drive", "yaw rate", "rad/s", "least power", motion[2], rate, 0.01 * abs(motion[2]))
-    yield Quantity("lifting drive", "torque of the right drive", "N m", "least power", torque,
-                   end.actuator_effort[RIGHT], 0.01 * torque)
-    yield Quantity("lifting drive", "roll lost on the way", "rad", "none: the arm holds", 0, start.roll - end.roll, 1e-3)
+    yield Quantity(
+        "lifting drive",
+        "torque of the right drive",
+        "N m",
+        "least power",
+        torque,
+        end.actuator_effort[RIGHT],
+        0.01 * torque,
+    )
+    yield Quantity(
+        "lifting drive", "roll lost on the way", "rad", "none: the arm holds", 0, start.roll - end.roll, 1e-3
+    )
 
 
 def _largest_rise(time_step):
@@ -260,27 +329,47 @@ def _largest_rise(time_step):
     machine = statics.Machine(CRAWLER)
     stiffness = machine.weight / 8 / 1e-3  # of the ground at each of eight points; sinkage 1 mm
     energies = []
-    with changed_robot(torque_limits(1e-9, *names)) as robot:
-        with Instrument((*SOUND, f"simulator.time_step_s={time_step}"), robot) as plant:
-            plant.lift(height)
-            for _ in range(round(3 / time_step)):
-                report = plant.report()
-                # points are reported half way between the ground and the depth of penetration
-                springs = sum(0.5 * stiffness * (2 * contact["point"][2]) ** 2 for contact in report.contacts)
-                energies.append(report.kinetic_energy + machine.weight * report.centre_of_mass[2] + springs)
-                plant.run(time_step)
+    settings = (*SOUND, f"simulator.time_step_s={time_step}")
+    with changed_robot(torque_limits(1e-9, *names)) as robot, Instrument(settings, robot) as plant:
+        plant.lift(height)
+        for _ in range(round(3 / time_step)):
+            report = plant.report()
+            # points are reported half way between the ground and the depth of penetration
+            springs = sum(0.5 * stiffness * (2 * contact["point"][2]) ** 2 for contact in report.contacts)
+            energies.append(report.kinetic_energy + machine.weight * report.centre_of_mass[2] + springs)
+            plant.run(time_step)
     return np.max(energies - np.minimum.accumulate(energies)) / (machine.weight * height)
 
 
 def passive():
     """What rises is the error of integrating the arm, which swings freely; it goes with the time step."""
     for time_step, tolerance in ((0.005, 0.05), (0.001, 0.005)):
-        yield Quantity(f"drives off, dropped from 0.2 m, step {1e3 * time_step:g} ms", "rise of energy / energy dropped",
-                       "1", "none: it only falls", 0, _largest_rise(time_step), tolerance)
+        yield Quantity(
+            f"drives off, dropped from 0.2 m, step {1e3 * time_step:g} ms",
+            "rise of energy / energy dropped",
+            "1",
+            "none: it only falls",
+            0,
+            _largest_rise(time_step),
+            tolerance,
+        )
 
 
-ALL = (free_fall, rest, straight_drive, locked_crawler, free_crawler, counter_rotation, rolling_down, drawbar_pull,
-       slopes, stall, arm_pressed, lifting_drive, passive)
+ALL = (
+    free_fall,
+    rest,
+    straight_drive,
+    locked_crawler,
+    free_crawler,
+    counter_rotation,
+    rolling_down,
+    drawbar_pull,
+    slopes,
+    stall,
+    arm_pressed,
+    lifting_drive,
+    passive,
+)
 
 
 def measure(progress=lambda name: None):

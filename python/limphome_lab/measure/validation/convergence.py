@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from limphome_lab.measure.instrument import CRAWLER, LEFT_LOCKED, Instrument
 from limphome_lab.measure.validation import statics
 from limphome_lab.measure.validation.cases import MU, SPEED
-from limphome_lab.measure.instrument import CRAWLER, LEFT_LOCKED, Instrument
 
 TIME_STEPS = (0.02, 0.01, 0.005, 0.0025, 0.001)  # [s]
 ITERATIONS = (2, 5, 10, 20, 50, 200)
@@ -42,7 +42,14 @@ def measure():
         settings = _settings(time_step, iterations)
         rate = _skid(settings)
         place, factor = _drag(settings)
-        rows.append({"time_step_s": time_step, "iterations": iterations, "yaw_rate": rate,
-                     "yaw_rate_error": rate / motion[2] - 1,
-                     "place_error_mm": 1e3 * float(np.linalg.norm(place - finest)), "real_time_factor": factor})
+        rows.append(
+            {
+                "time_step_s": time_step,
+                "iterations": iterations,
+                "yaw_rate": rate,
+                "yaw_rate_error": rate / motion[2] - 1,
+                "place_error_mm": 1e3 * float(np.linalg.norm(place - finest)),
+                "real_time_factor": factor,
+            }
+        )
     return rows

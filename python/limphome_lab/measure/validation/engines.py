@@ -3,9 +3,9 @@
 import math
 from dataclasses import asdict, dataclass
 
+from limphome_lab.measure.instrument import CRAWLER, LEFT_LOCKED, RIGHT, SOUND, Instrument
 from limphome_lab.measure.validation import statics
 from limphome_lab.measure.validation.cases import MU, SPEED, lifted_footing, press_down
-from limphome_lab.measure.instrument import CRAWLER, LEFT_LOCKED, RIGHT, SOUND, Instrument
 from limphome_lab.measure.validation.mujoco_robot import DEFAULTS, ELLIPTIC, MujocoPlant
 
 
@@ -77,20 +77,46 @@ def _our_lifting():
 def compare():
     machine = statics.Machine(CRAWLER)
     radius = machine.crawlers[RIGHT].radius
-    rows = [Comparison("straight drive: speed", "m/s", SPEED, _our_straight(), _mujoco_straight(ELLIPTIC),
-                       _mujoco_straight(DEFAULTS))]
+    rows = [
+        Comparison(
+            "straight drive: speed",
+            "m/s",
+            SPEED,
+            _our_straight(),
+            _mujoco_straight(ELLIPTIC),
+            _mujoco_straight(DEFAULTS),
+        )
+    ]
 
     def add(name, reference, ours, mujoco, default):
         motion, pull = reference
         rows.append(Comparison(f"{name}: yaw rate", "rad/s", float(motion[2]), ours[0], mujoco[0], default[0]))
-        rows.append(Comparison(f"{name}: torque of the right drive", "N m", float(pull[RIGHT]) * radius,
-                               float(ours[1]), mujoco[1], default[1]))
+        rows.append(
+            Comparison(
+                f"{name}: torque of the right drive",
+                "N m",
+                float(pull[RIGHT]) * radius,
+                float(ours[1]),
+                mujoco[1],
+                default[1],
+            )
+        )
 
-    add("left locked", statics.least_power(statics.on_crawlers(machine, MU), (0, SPEED)), _our_skid(),
-        _mujoco_skid(ELLIPTIC), _mujoco_skid(DEFAULTS))
+    add(
+        "left locked",
+        statics.least_power(statics.on_crawlers(machine, MU), (0, SPEED)),
+        _our_skid(),
+        _mujoco_skid(ELLIPTIC),
+        _mujoco_skid(DEFAULTS),
+    )
     rate, end = _our_lifting()
-    add("lifting drive", statics.least_power(lifted_footing(machine, end), (0, SPEED)),
-        (rate, end.actuator_effort[RIGHT]), _mujoco_lifting(ELLIPTIC), _mujoco_lifting(DEFAULTS))
+    add(
+        "lifting drive",
+        statics.least_power(lifted_footing(machine, end), (0, SPEED)),
+        (rate, end.actuator_effort[RIGHT]),
+        _mujoco_lifting(ELLIPTIC),
+        _mujoco_lifting(DEFAULTS),
+    )
     return rows
 
 

@@ -30,15 +30,25 @@ def model_xml(path, friction=0.7, time_step=1 / 240, options=ELLIPTIC, solref=(0
     links = {link.get("name"): link for link in root.findall("link")}
     limits = {joint.get("name"): joint.find("limit") for joint in root.findall("joint")}
     model = xml.Element("mujoco")
-    xml.SubElement(model, "option", timestep=repr(time_step), gravity=f"0 0 {-GRAVITY}", integrator="implicitfast",
-                   **{name: str(value) for name, value in options.items()})
-    xml.SubElement(xml.SubElement(model, "default"), "geom", friction=f"{friction} 0 0", condim="3",
-                   solref=_text(solref))
+    xml.SubElement(
+        model,
+        "option",
+        timestep=repr(time_step),
+        gravity=f"0 0 {-GRAVITY}",
+        integrator="implicitfast",
+        **{name: str(value) for name, value in options.items()},
+    )
+    xml.SubElement(
+        xml.SubElement(model, "default"), "geom", friction=f"{friction} 0 0", condim="3", solref=_text(solref)
+    )
     xml.SubElement(model, "compiler", angle="radian", inertiafromgeom="false")
     world = xml.SubElement(model, "worldbody")
     xml.SubElement(world, "geom", name="ground", type="plane", size="0 0 1", contype="2", conaffinity="1")
-    bodies = {machine.robot.base: xml.SubElement(world, "body", name=machine.robot.base,
-                                                 quat=_text([math.cos(heading / 2), 0, 0, math.sin(heading / 2)]))}
+    bodies = {
+        machine.robot.base: xml.SubElement(
+            world, "body", name=machine.robot.base, quat=_text([math.cos(heading / 2), 0, 0, math.sin(heading / 2)])
+        )
+    }
     base = bodies[machine.robot.base]
     xml.SubElement(base, "freejoint")
     _add_inertial(base, links[machine.robot.base])
@@ -46,22 +56,37 @@ def model_xml(path, friction=0.7, time_step=1 / 240, options=ELLIPTIC, solref=(0
     for joint in machine.robot.joints:
         rotation = np.zeros(4)
         mujoco.mju_mat2Quat(rotation, joint.origin[:3, :3].ravel())
-        body = xml.SubElement(bodies[joint.parent], "body", name=joint.child, pos=_text(joint.origin[:3, 3]),
-                              quat=_text(rotation))
+        body = xml.SubElement(
+            bodies[joint.parent], "body", name=joint.child, pos=_text(joint.origin[:3, 3]), quat=_text(rotation)
+        )
         bodies[joint.child] = body
         if joint.name in machine.robot.arm:
             limit = limits[joint.name]
-            xml.SubElement(body, "joint", name=joint.name, axis=_text(joint.axis), limited="true",
-                           range=f"{limit.get('lower')} {limit.get('upper')}")
+            xml.SubElement(
+                body,
+                "joint",
+                name=joint.name,
+                axis=_text(joint.axis),
+                limited="true",
+                range=f"{limit.get('lower')} {limit.get('upper')}",
+            )
             force = float(limit.get("effort"))
-            xml.SubElement(actuators, "intvelocity", name=joint.name, joint=joint.name, kp=str(ARM_STIFFNESS),
-                           kv=str(ARM_DAMPING), actrange=f"{limit.get('lower')} {limit.get('upper')}",
-                           forcerange=f"{-force} {force}")
+            xml.SubElement(
+                actuators,
+                "intvelocity",
+                name=joint.name,
+                joint=joint.name,
+                kp=str(ARM_STIFFNESS),
+                kv=str(ARM_DAMPING),
+                actrange=f"{limit.get('lower')} {limit.get('upper')}",
+                forcerange=f"{-force} {force}",
+            )
         _add_inertial(body, links[joint.child])
-    for name, crawler in zip(machine.robot.crawlers, machine.crawlers):
+    for name, crawler in zip(machine.robot.crawlers, machine.crawlers, strict=True):
         half = [crawler.length / 2 - crawler.radius, crawler.width / 2, crawler.radius]
-        xml.SubElement(base, "geom", name=name, type="box", pos=_text(crawler.centre), size=_text(half),
-                       surfacevel="1 0 0 0 0 0")  # all 0 would switch it off for good
+        xml.SubElement(
+            base, "geom", name=name, type="box", pos=_text(crawler.centre), size=_text(half), surfacevel="1 0 0 0 0 0"
+        )  # all 0 would switch it off for good
     link, centre, radius = machine.tip
     xml.SubElement(bodies[link], "geom", name="tip", type="sphere", pos=_text(centre), size=repr(radius))
     return xml.tostring(model, encoding="unicode")
@@ -71,9 +96,13 @@ def _add_inertial(body, link):
     inertial = link.find("inertial")
     origin = inertial.find("origin")
     moments = inertial.find("inertia")
-    xml.SubElement(body, "inertial", pos="0 0 0" if origin is None else origin.get("xyz"),
-                   mass=inertial.find("mass").get("value"),
-                   diaginertia=_text([float(moments.get(name)) for name in ("ixx", "iyy", "izz")]))
+    xml.SubElement(
+        body,
+        "inertial",
+        pos="0 0 0" if origin is None else origin.get("xyz"),
+        mass=inertial.find("mass").get("value"),
+        diaginertia=_text([float(moments.get(name)) for name in ("ixx", "iyy", "izz")]),
+    )
 
 
 class MujocoPlant:
@@ -83,18 +112,16 @@ class MujocoPlant:
         self.machine = Machine(path)
         self.model = mujoco.MjModel.from_xml_string(model_xml(path, **options))
         self.data = mujoco.MjData(self.model)
-        home = self.machine.home[2:]
-        self.data.qpos[7:] = home
-        self.data.act[:] = home
+        self.data.qpos[7:] = self.machine.arm_home  # after the base's position and orientation
+        self.data.act[:] = self.machine.arm_home
         self.crawlers = [self.model.geom(name).id for name in self.machine.robot.crawlers]
         self.tip = self.model.geom("tip").id
         self.run(0.5)
 
     def run(self, seconds, *rates):
-        rates = [*rates, *(0.0 for _ in range(5 - len(rates)))]
-        for geom, speed in zip(self.crawlers, rates):
+        speeds, self.data.ctrl[:] = self.machine.all_rates(rates)
+        for geom, speed in zip(self.crawlers, speeds, strict=True):
             self.model.geom_surfacevel[geom][0] = -speed  # the surface runs back under the robot
-        self.data.ctrl[:] = rates[2:]
         mujoco.mj_step(self.model, self.data, nstep=round(seconds / self.model.opt.timestep))
 
     @property

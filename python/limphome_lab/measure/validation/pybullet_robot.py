@@ -1,7 +1,7 @@
 """The same robot in PyBullet, for speed alone: crawlers as two boxes, or as five wheels each.
 
-Bullet has no belts: boxes are dragged, and wheels turn by velocity motors, so that both carry the machine's masses, joints
-and contacts but not its physics."""
+Bullet has no belts: boxes are dragged, and wheels turn by velocity motors, so that both carry the machine's masses,
+joints and contacts but not its physics."""
 
 import tempfile
 import xml.etree.ElementTree as xml
@@ -29,7 +29,7 @@ def _urdf(path, wheels):
         for element in link.findall("visual") + link.findall("collision"):
             link.remove(element)
     base = machine.robot.base
-    for side, crawler in zip(("left", "right"), machine.crawlers):
+    for side, crawler in zip(("left", "right"), machine.crawlers, strict=True):
         flat = crawler.length - 2 * crawler.radius
         if not wheels:
             _collision(links[base], crawler.centre, "box", size=f"{flat} {crawler.width} {2 * crawler.radius}")
@@ -74,23 +74,32 @@ class PybulletPlant:
             joints[info[1].decode()] = (i, info[10])
             pybullet.changeDynamics(self.robot, i, lateralFriction=0.7, **on)
         pybullet.changeDynamics(self.robot, -1, lateralFriction=0.7, **on)
-        self.radius = Machine(path).crawlers[0].radius
-        self.joints, home = joints, Machine(path).home[2:]
-        self.arm = ("swing", "boom", "arm")
-        for name, angle in zip(self.arm, home):
+        self.machine = Machine(path)
+        self.joints = joints
+        for name, angle in zip(self.machine.robot.arm, self.machine.arm_home, strict=True):
             pybullet.resetJointState(self.robot, joints[name][0], angle, **on)
         self.run(0.5)
 
     def run(self, seconds, *rates):
-        rates = [*rates, *(0.0 for _ in range(5 - len(rates)))]
-        targets = dict(zip(("left_crawler", "right_crawler"), np.array(rates[:2]) / self.radius))
-        targets |= {name: targets["left_crawler" if name.startswith("left") else "right_crawler"]
-                    for name in self.joints if "_wheel_" in name}
-        targets |= dict(zip(self.arm, rates[2:]))
+        speeds, arm = self.machine.all_rates(rates)
+        sprockets = np.array(speeds) / self.machine.crawlers[0].radius
+        targets = dict(zip(self.machine.robot.crawlers, sprockets, strict=True))
+        targets |= {
+            name: targets["left_crawler" if name.startswith("left") else "right_crawler"]
+            for name in self.joints
+            if "_wheel_" in name
+        }
+        targets |= dict(zip(self.machine.robot.arm, arm, strict=True))
         for name, rate in targets.items():
             joint, force = self.joints[name]
-            pybullet.setJointMotorControl2(self.robot, joint, pybullet.VELOCITY_CONTROL, targetVelocity=rate,
-                                           force=force or 1000, physicsClientId=self.client)
+            pybullet.setJointMotorControl2(
+                self.robot,
+                joint,
+                pybullet.VELOCITY_CONTROL,
+                targetVelocity=rate,
+                force=force or 1000,
+                physicsClientId=self.client,
+            )
         for _ in range(round(seconds / self.time_step)):
             pybullet.stepSimulation(physicsClientId=self.client)
 

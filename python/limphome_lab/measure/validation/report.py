@@ -33,7 +33,7 @@ The yaw rate's remaining error is no error of the steps: the robot has inertia (
 loads), which the quasi-static analysis leaves out, and it vanishes at low speed (last table).
 
 ## Against another engine
-{mujoco}"""
+{mujoco}"""  # noqa: E501
 
 MUJOCO = """
 The same robot in MuJoCo: masses, joints, torque limits and points of contact from the same URDF, crawlers as boxes with
@@ -53,7 +53,7 @@ engines should give the same yaw rate once it is scaled by the speed of the belt
   elliptic cone agrees with quasi-static analysis and with this simulator, whose points all bear load at any speed. That fits
   MuJoCo's convex contact model, which pushes a sliding point off the ground, the more the faster it slides; smaller steps
   do not mend it. What is left of the pyramid's difference at 0.003 m/s has not been explained further.
-"""
+"""  # noqa: E501
 
 
 @dataclass
@@ -73,58 +73,104 @@ def _error(value, reference):
 
 
 def quantities(rows):
-    return Table(["case", "quantity", "unit", "reference from", "reference", "measured", "error", "allowed", ""],
-                 [[row["case"], row["quantity"], row["unit"], row["source"], _number(row["reference"]),
-                   _number(row["measured"]), _error(row["error"], row["reference"]),
-                   _error(row["tolerance"], row["reference"]).lstrip("+"), "ok" if row["passed"] else "FAILED"]
-                  for row in rows])
+    return Table(
+        ["case", "quantity", "unit", "reference from", "reference", "measured", "error", "allowed", ""],
+        [
+            [
+                row["case"],
+                row["quantity"],
+                row["unit"],
+                row["source"],
+                _number(row["reference"]),
+                _number(row["measured"]),
+                _error(row["error"], row["reference"]),
+                _error(row["tolerance"], row["reference"]).lstrip("+"),
+                "ok" if row["passed"] else "FAILED",
+            ]
+            for row in rows
+        ],
+    )
 
 
 def convergence(rows):
-    return Table(["time step [ms]", "iterations", "yaw rate [rad/s]", "error", "error of place [mm]",
-                  "real-time factor"],
-                 [[f"{1e3 * row['time_step_s']:g}", str(row["iterations"]), f"{row['yaw_rate']:.5f}",
-                   f"{100 * row['yaw_rate_error']:+.2f} %", f"{row['place_error_mm']:.2f}",
-                   f"{row['real_time_factor']:.0f}"] for row in rows])
+    return Table(
+        ["time step [ms]", "iterations", "yaw rate [rad/s]", "error", "error of place [mm]", "real-time factor"],
+        [
+            [
+                f"{1e3 * row['time_step_s']:g}",
+                str(row["iterations"]),
+                f"{row['yaw_rate']:.5f}",
+                f"{100 * row['yaw_rate_error']:+.2f} %",
+                f"{row['place_error_mm']:.2f}",
+                f"{row['real_time_factor']:.0f}",
+            ]
+            for row in rows
+        ],
+    )
 
 
 def comparison(rows):
     def against(value, reference):
         return f"{_number(value)} ({100 * (value / reference - 1):+.1f} %)"
 
-    return Table(["quantity", "unit", "quasi-static", "limphome", "MuJoCo, elliptic cone", "MuJoCo, default cone"],
-                 [[row["quantity"], row["unit"], _number(row["reference"]),
-                   *(against(row[name], row["reference"]) for name in ("ours", "mujoco", "mujoco_default"))]
-                  for row in rows])
+    return Table(
+        ["quantity", "unit", "quasi-static", "limphome", "MuJoCo, elliptic cone", "MuJoCo, default cone"],
+        [
+            [
+                row["quantity"],
+                row["unit"],
+                _number(row["reference"]),
+                *(against(row[name], row["reference"]) for name in ("ours", "mujoco", "mujoco_default")),
+            ]
+            for row in rows
+        ],
+    )
 
 
 def far_from_ours(rows):
     """What MuJoCo gives more than 10 % off, in words."""
     cones = {"mujoco": "elliptic", "mujoco_default": "default"}
-    far = [f"{row['quantity']}, {cones[name]} cone ({100 * (row[name] / row['ours'] - 1):+.0f} %)"
-           for row in rows for name in cones if abs(row[name] / row["ours"] - 1) > 0.1]
+    far = [
+        f"{row['quantity']}, {cones[name]} cone ({100 * (row[name] / row['ours'] - 1):+.0f} %)"
+        for row in rows
+        for name in cones
+        if abs(row[name] / row["ours"] - 1) > 0.1
+    ]
     return "; ".join(far) or "nothing"
 
 
 def by_speed(rows, speeds):
-    return Table(["yaw rate, scaled [rad/s] (points under load)", *(f"belt at {speed:g} m/s" for speed in speeds)],
-                 [[row["engine"], *(f"{rate:.4f} ({loaded:.1f})"
-                                    for rate, loaded in zip(row["yaw_rates"], row["loaded_points"]))]
-                  for row in rows])
+    return Table(
+        ["yaw rate, scaled [rad/s] (points under load)", *(f"belt at {speed:g} m/s" for speed in speeds)],
+        [
+            [
+                row["engine"],
+                *(
+                    f"{rate:.4f} ({loaded:.1f})"
+                    for rate, loaded in zip(row["yaw_rates"], row["loaded_points"], strict=True)
+                ),
+            ]
+            for row in rows
+        ],
+    )
 
 
 def further_tables(result):
     tables = [convergence(result["convergence"])]
     if result["mujoco"]:
-        tables += [comparison(result["mujoco"]["comparison"]),
-                   by_speed(result["mujoco"]["by_speed"], result["mujoco"]["speeds"])]
+        tables += [
+            comparison(result["mujoco"]["comparison"]),
+            by_speed(result["mujoco"]["by_speed"], result["mujoco"]["speeds"]),
+        ]
     return tables
 
 
 def text(table):
     lines = [table.head, *table.rows]
     widths = [max(len(line[i]) for line in lines) for i in range(len(table.head))]
-    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in lines)
+    return "\n".join(
+        "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip() for line in lines
+    )
 
 
 def markdown(table):

@@ -8,7 +8,8 @@ import numpy as np
 
 from limphome_lab import urdf
 
-GRAVITY = 9.81
+GRAVITY = 9.81  # [m/s^2]
+LEVEL, ORIGIN = np.eye(3), np.zeros(3)  # a robot's axes and position as it starts, but for the heading
 
 
 @dataclass
@@ -29,9 +30,12 @@ class Machine:
         self.mass = sum(mass for mass, _ in self.inertials.values())
         self.weight = self.mass * GRAVITY
         extension = root.find("limphome")
-        self.crawlers = [Crawler(_numbers(e.get("xyz")), *(float(e.get(k)) for k in ("length", "width", "radius")))
-                         for e in extension.findall("crawler")]
-        self.home = np.array([0.0, 0.0] + [float(e.get("home")) for e in extension.findall("arm")])
+        self.crawlers = [
+            Crawler(_numbers(e.get("xyz")), *(float(e.get(k)) for k in ("length", "width", "radius")))
+            for e in extension.findall("crawler")
+        ]
+        self.arm_home = np.array([float(e.get("home")) for e in extension.findall("arm")])
+        self.home = np.concatenate([np.zeros(len(self.crawlers)), self.arm_home])
         tip = extension.find("tip")
         self.tip = (tip.get("link"), _numbers(tip.get("xyz")), float(tip.get("radius")))
         sprocket = root.find("link[@name='right_sprocket']/inertial/inertia")
@@ -44,21 +48,29 @@ class Machine:
         centre = np.zeros(3) if origin is None else _numbers(origin.get("xyz"))
         return float(inertial.find("mass").get("value")), centre
 
+    def all_rates(self, rates):
+        """`rates` of the first actuators, and 0 for the others: (of the crawlers, of the arm)."""
+        rates = [*rates, *(0.0 for _ in range(len(self.home) - len(rates)))]
+        return rates[: len(self.crawlers)], rates[len(self.crawlers) :]
+
     def frames(self, angles, position=(0, 0, 0), orientation=(1, 0, 0, 0)):
-        return self.robot.link_frames(position, orientation, dict(zip(self.robot.actuators, angles)))
+        return self.robot.link_frames(position, orientation, dict(zip(self.robot.actuators, angles, strict=True)))
 
     def centre_of_mass(self, frames):
         moment = sum(mass * _point(frames[link], centre) for link, (mass, centre) in self.inertials.items())
         return moment / self.mass
 
-    def crawler_points(self, crawler, axes=np.eye(3), position=np.zeros(3), sides=(0.5, -0.5)):
+    def crawler_points(self, crawler, axes=LEVEL, position=ORIGIN, sides=(0.5, -0.5)):
         """Lowest points of the edges round both ends of a belt, for a robot in this pose; sides as multiples of the
         width."""
         c = self.crawlers[crawler]
         up = axes.T @ [0, 0, 1]  # in the body frame
         down = -np.array([up[0], 0, up[2]]) / np.hypot(up[0], up[2])
-        points = [c.centre + [end * (c.length - 2 * c.radius), side * c.width, 0] + c.radius * down
-                  for end in (0.5, -0.5) for side in sides]
+        points = [
+            c.centre + [end * (c.length - 2 * c.radius), side * c.width, 0] + c.radius * down
+            for end in (0.5, -0.5)
+            for side in sides
+        ]
         return np.array(points) @ axes.T + position
 
     def tip_point(self, frames):
@@ -116,11 +128,11 @@ def least_power(footing, belt_speeds):
 
 def _newton(unknowns, slip, known, friction, rounding):
     def power(x):
-        return np.sum(friction * np.sqrt(np.sum((slip @ x - known) ** 2, axis=1) + rounding ** 2))
+        return np.sum(friction * np.sqrt(np.sum((slip @ x - known) ** 2, axis=1) + rounding**2))
 
     for _ in range(200):
         velocity = slip @ unknowns - known
-        length = np.sqrt(np.sum(velocity ** 2, axis=1) + rounding ** 2)
+        length = np.sqrt(np.sum(velocity**2, axis=1) + rounding**2)
         direction = velocity / length[:, None]
         gradient = np.einsum("i,ij,ijk->k", friction, direction, slip)
         bend = (np.eye(2) - direction[:, :, None] * direction[:, None, :]) * (friction / length)[:, None, None]

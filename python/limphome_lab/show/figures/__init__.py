@@ -1,7 +1,7 @@
 """The figures of a run, one per file: the paper's Figs. 7, 8 and 9, and how learning went."""
 
-from limphome_lab.show.figures import learning, motion, reward, style, trajectories
 from limphome_lab.messages import episode_states
+from limphome_lab.show.figures import learning, motion, reward, style, trajectories
 
 FIRST, LAST = 0, -1  # as episode_states understands them
 

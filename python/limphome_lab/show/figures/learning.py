@@ -14,8 +14,10 @@ def draw(episodes):
     reached = [100.0 * (episode.outcome == "goal") for episode in episodes]
     goals.plot(number, style.running(reached, np.mean), color=style.GREEN, linewidth=2)
     goals.set(ylabel="reached the goal [%]", xlabel="episode", ylim=(-3, 103), xlim=(0, number[-1] + 1))
-    duration.set_title(f"Single episodes, and their running median of {style.MEDIAN_WINDOW}; "
-                       f"goals as a running mean of {style.MEDIAN_WINDOW}")
+    duration.set_title(
+        f"Single episodes, and their running median of {style.MEDIAN_WINDOW}; "
+        f"goals as a running mean of {style.MEDIAN_WINDOW}"
+    )
     return figure
 
 

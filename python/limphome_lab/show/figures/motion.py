@@ -29,11 +29,19 @@ def draw(urdf, episode, states):
     span = high - low
     panel = 3.2  # width [in]
     heights = [panel * span[UP] / span[FORWARD], panel * span[LEFT] / span[FORWARD]]
-    figure, axes = plt.subplots(2, len(chosen), figsize=(panel * len(chosen) + 0.6, sum(heights) + 1.6),
-                                height_ratios=heights, sharex=True, sharey="row", squeeze=False, layout="constrained")
+    figure, axes = plt.subplots(
+        2,
+        len(chosen),
+        figsize=(panel * len(chosen) + 0.6, sum(heights) + 1.6),
+        height_ratios=heights,
+        sharex=True,
+        sharey="row",
+        squeeze=False,
+        layout="constrained",
+    )
     from_left = _failed_side(poses[0]) >= 0
     begin = episode.utime * 1e-6 - episode.duration
-    for (side, above), state, parts in zip(axes.T, chosen, poses):
+    for (side, above), state, parts in zip(axes.T, chosen, poses, strict=True):
         _view(side, parts, across=UP, nearness=lambda points: points[:, LEFT] if from_left else -points[:, LEFT])
         _view(above, parts, across=LEFT, nearness=lambda points: points[:, UP])
         _surroundings(side, above, episode)
@@ -51,7 +59,7 @@ def draw(urdf, episode, states):
 
 def _parts(robot, episode, state):
     """[(part with its corners in the episode's frame, colour)]"""
-    failed = {name for name, health in zip(robot.actuators, state.actuator_health) if health != 0}
+    failed = {name for name, health in zip(robot.actuators, state.actuator_health, strict=False) if health != 0}
     parts = []
     for part in robot.posed(state.position, state.orientation, state.actuator_position):
         seen = style.episode_frame(part.points, episode.start, episode.start_heading)
@@ -77,8 +85,16 @@ def _view(axes, parts, across, nearness):
     """Outlines of all parts, those nearest to the eye last."""
     axes.set_aspect("equal")
     for part, colour in sorted(parts, key=lambda each: nearness(each[0].points).mean()):
-        axes.add_patch(Polygon(convex_hull(part.points[:, [FORWARD, across]]), closed=True, facecolor=colour,
-                               edgecolor="white", linewidth=0.8, zorder=3))
+        axes.add_patch(
+            Polygon(
+                convex_hull(part.points[:, [FORWARD, across]]),
+                closed=True,
+                facecolor=colour,
+                edgecolor="white",
+                linewidth=0.8,
+                zorder=3,
+            )
+        )
 
 
 def _surroundings(side, above, episode):
@@ -89,10 +105,16 @@ def _surroundings(side, above, episode):
 
 
 def _legend(figure, episode, colours):
-    labels = {style.RED: "failed crawler", CRAWLER: "crawler", COLOURS["base"]: "chassis",
-              COLOURS["upper_body"]: "upper body", ARM: "boom and arm"}
-    handles = [Polygon([(0, 0)], facecolor=colour, label=label) for colour, label in labels.items()
-               if colour in colours]
+    labels = {
+        style.RED: "failed crawler",
+        CRAWLER: "crawler",
+        COLOURS["base"]: "chassis",
+        COLOURS["upper_body"]: "upper body",
+        ARM: "boom and arm",
+    }
+    handles = [
+        Polygon([(0, 0)], facecolor=colour, label=label) for colour, label in labels.items() if colour in colours
+    ]
     handles.append(plt.Line2D([], [], color=style.GREEN, linestyle="--", label="goal line"))
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     figure.suptitle(f"Motion of the robot in episode {episode.episode}")

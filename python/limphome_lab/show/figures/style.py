@@ -4,8 +4,8 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-import matplotlib.pyplot as plt  # noqa: E402 (the backend comes first)
-import numpy as np  # noqa: E402
+import matplotlib.pyplot as plt
+import numpy as np
 
 DPI = 150
 INK = "#222222"
@@ -17,13 +17,26 @@ GREEN = "#3a8f4d"  # the goal
 
 MEDIAN_WINDOW = 51  # episodes
 
-plt.rcParams.update({
-    "font.size": 10, "axes.titlesize": 11, "axes.labelsize": 10, "legend.fontsize": 9,
-    "axes.edgecolor": INK, "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK, "text.color": INK,
-    "axes.spines.top": False, "axes.spines.right": False,
-    "axes.grid": True, "grid.color": "#e3e7eb", "grid.linewidth": 0.8, "axes.axisbelow": True,
-    "legend.frameon": False,
-})
+plt.rcParams.update(
+    {
+        "font.size": 10,
+        "axes.titlesize": 11,
+        "axes.labelsize": 10,
+        "legend.fontsize": 9,
+        "axes.edgecolor": INK,
+        "axes.labelcolor": INK,
+        "xtick.color": INK,
+        "ytick.color": INK,
+        "text.color": INK,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.grid": True,
+        "grid.color": "#e3e7eb",
+        "grid.linewidth": 0.8,
+        "axes.axisbelow": True,
+        "legend.frameon": False,
+    }
+)
 
 
 def save(figure, path):
@@ -36,7 +49,7 @@ def running(values, statistic=np.median, window=MEDIAN_WINDOW):
     """`statistic` over up to `window` values centred on each; the window is cut off at the ends."""
     values = np.asarray(values, dtype=float)
     half = window // 2
-    return np.array([statistic(values[max(0, i - half):i + half + 1]) for i in range(len(values))])
+    return np.array([statistic(values[max(0, i - half) : i + half + 1]) for i in range(len(values))])
 
 
 def episode_frame(points, start, heading):

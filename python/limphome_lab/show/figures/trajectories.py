@@ -13,14 +13,25 @@ def draw(first, last, goal_distance):
     figure, axes = plt.subplots(layout="constrained")
     for (episode, states), colour, width in ((first, style.ORANGE, 1.4), (last, style.BLUE, 2.2)):
         way = style.episode_frame([state.position[:2] for state in states], episode.start, episode.start_heading)
-        axes.plot(way[:, 0], way[:, 1], color=colour, linewidth=width, marker=".", markersize=4,
-                  label=f"episode {episode.episode} ({episode.duration:.1f} s)", zorder=3)
+        axes.plot(
+            way[:, 0],
+            way[:, 1],
+            color=colour,
+            linewidth=width,
+            marker=".",
+            markersize=4,
+            label=f"episode {episode.episode} ({episode.duration:.1f} s)",
+            zorder=3,
+        )
         axes.plot(*way[-1], marker="o", markersize=7, color=colour, markeredgecolor="white", zorder=4)
     axes.axhline(goal_distance, color=style.GREEN, linestyle="--", linewidth=1.4, label="goal line", zorder=2)
     axes.plot(0, 0, marker="^", markersize=10, color=style.INK, label="start, facing +y", linestyle="none", zorder=5)
     figure.set_size_inches(WIDTH, BESIDE_AXES + WIDTH * _limits(axes, goal_distance))
-    axes.set(xlabel="x, to the right of the start [m]", ylabel="y, ahead of the start [m]",
-             title="Way of the robot in the first and the last episode")
+    axes.set(
+        xlabel="x, to the right of the start [m]",
+        ylabel="y, ahead of the start [m]",
+        title="Way of the robot in the first and the last episode",
+    )
     figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure
 
