@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """check_stack.py BOUND OBJECT...: the worst-case stack of every function of the library, from the call graphs and
-frames that gcc writes beside each object with -fcallgraph-info=su. Fails on recursion, on a call through a pointer, on a
-frame whose size is not known, on a call from outside the library but to copy or fill memory, and where BOUND bytes are
-not enough."""
+frames that gcc writes beside each object with -fcallgraph-info=su. Fails on recursion, on a call through a pointer, on
+a frame whose size is not known, on a call from outside the library but to copy or fill memory, and where BOUND bytes
+are not enough."""
 
 import re
 import sys
