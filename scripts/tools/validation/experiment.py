@@ -1,4 +1,4 @@
-"""Runs the real simulation under limphome-experiment and gives back what it reports."""
+"""Runs the real simulation under limphome-instrument and gives back what it measures."""
 
 import json
 import math
@@ -9,7 +9,7 @@ import numpy as np
 from tools import paths
 from tools.urdf import rotation_of
 
-PROGRAM = paths.BUILD / "bin" / "limphome-experiment"
+PROGRAM = paths.BUILD / "bin" / "limphome-instrument"
 PAPER = paths.CONFIG / "paper.ini"
 CRAWLER = paths.CONFIG / "crawler.urdf"
 
@@ -20,7 +20,7 @@ LEFT, RIGHT, SWING, BOOM, ARM = range(5)
 
 
 class Report:
-    """State and contacts at one moment; the fields are those of limphome-experiment's JSON."""
+    """State and contacts at one moment; the fields are those of limphome-instrument's JSON."""
 
     def __init__(self, fields):
         self.fields = fields
@@ -72,15 +72,14 @@ class Experiment:
 
     def run(self, seconds, *rates):
         """Steady commands: belt speeds [m/s], then joint rates [rad/s]."""
-        self._say("run", [seconds, *rates])
+        self._say("command", rates)
+        self._say("advance", [seconds])
+
+    def reset(self, episode=0):
+        self._say("reset", [episode])
 
     def report(self):
-        self._say("report", [])
-        self.process.stdin.flush()
-        line = self.process.stdout.readline()
-        if not line:
-            raise RuntimeError(f"limphome-experiment ended with exit code {self.process.wait()}")
-        return Report(json.loads(line))
+        return Report(self._ask("sense") | self._ask("truth") | self._ask("measure"))
 
     def turning_rate(self, seconds, *rates):
         """Mean rate of the heading from now on [rad/s], and the state at the end."""
@@ -89,6 +88,14 @@ class Experiment:
         after = self.report()
         turned = math.remainder(after.heading - before.heading, 2 * math.pi)
         return turned / (after.time - before.time), after
+
+    def _ask(self, verb):
+        self._say(verb, [])
+        self.process.stdin.flush()
+        line = self.process.stdout.readline()
+        if not line:
+            raise RuntimeError(f"limphome-instrument ended with exit code {self.process.wait()}")
+        return json.loads(line)
 
     def _say(self, verb, numbers):
         self.process.stdin.write(" ".join([verb, *(repr(float(number)) for number in numbers)]) + "\n")
