@@ -96,11 +96,13 @@ def decision():
 
 
 def simulator_step():
-    rates, factors = zip(
-        *(map(float, run("bench_simulator", paths.CONFIG / "crawler.urdf").split()) for _ in range(ROUNDS)), strict=True
-    )
-    rate, factor = statistics.median(rates), statistics.median(factors)
+    """Of the simulator as it is, and beside other engines."""
+    from limphome_lab.measure import bench_simulator  # as bench_numpy above
+
+    factor = statistics.median(bench_simulator.real_time_factor() for _ in range(ROUNDS))
+    rate = factor / bench_simulator.OUR_STEP
     yield Figure("simulator_step", rate, "1/s", rate / factor, factor, "time steps of the world, against real time")
+    yield from (Figure(**figure) for figure in bench_simulator.measure())
 
 
 def lockstep_round_trip(url):
@@ -168,10 +170,7 @@ def parse_arguments():
 def main():
     args = parse_arguments()
     url = network.enter(args.network)
-    from limphome_lab.measure import bench_simulator  # as bench_numpy above
-
-    engines = [Figure(**figure) for figure in bench_simulator.measure()]
-    figures = [*decision(), *simulator_step(), *engines, *lockstep_round_trip(url), *training_run()]
+    figures = [*decision(), *simulator_step(), *lockstep_round_trip(url), *training_run()]
     print(table(figures))
     if args.json:
         args.json.write_text(json.dumps([figure.as_dict() for figure in figures], indent=2) + "\n")

@@ -25,6 +25,24 @@ def _ours(actions):
         return plant.report().cpu_s
 
 
+def _drag(plant, periods):
+    """The healthy crawler drives, the arm joints sweep to and fro, never far enough to tumble."""
+    for i in range(periods):
+        sign = 1 if i % 4 < 2 else -1
+        plant.run(PERIOD, 0.3, 0.3, 0.1 * sign, 0.1 * sign, -0.1 * sign)
+
+
+def real_time_factor():
+    """Simulated over processor time while the robot drags itself along."""
+    with Instrument(LEFT_LOCKED) as plant:
+        _drag(plant, 10)  # warms up
+        warm = plant.report().cpu_s
+        plant.reset()
+        _drag(plant, 60)
+        end = plant.report()
+        return end.time / (end.cpu_s - warm)
+
+
 def _timed(plant, actions):
     begin = time.process_time()
     for action in actions:

@@ -1,4 +1,4 @@
-"""Runs the real simulation under limphome-experiment and gives back what it reports."""
+"""Runs the real simulation under limphome-instrument and gives back what it measures."""
 
 import json
 import math
@@ -20,7 +20,7 @@ LEFT, RIGHT, SWING, BOOM, ARM = range(5)
 
 
 class Report:
-    """State and contacts at one moment; the fields are those of limphome-experiment's JSON."""
+    """State and contacts at one moment; the fields are those of limphome-instrument's JSON."""
 
     def __init__(self, fields):
         self.fields = fields
@@ -48,7 +48,7 @@ class Instrument:
     """The paper's robot and experiment, but for `robot` (a URDF file) and `settings` (section.key=value)."""
 
     def __init__(self, settings=LEFT_LOCKED, robot=CRAWLER):
-        command = [paths.program("experiment"), "--config", PAPER, "--robot", robot]
+        command = [paths.program("instrument"), "--config", PAPER, "--robot", robot]
         for setting in settings:
             command += ["--set", setting]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
@@ -72,15 +72,14 @@ class Instrument:
 
     def run(self, seconds, *rates):
         """Steady commands: belt speeds [m/s], then joint rates [rad/s]."""
-        self._say("run", [seconds, *rates])
+        self._say("command", rates)
+        self._say("advance", [seconds])
+
+    def reset(self, episode=0):
+        self._say("reset", [episode])
 
     def report(self):
-        self._say("report", [])
-        self.process.stdin.flush()
-        line = self.process.stdout.readline()
-        if not line:
-            raise RuntimeError(f"limphome-experiment ended with exit code {self.process.wait()}")
-        return Report(json.loads(line))
+        return Report(self._ask("sense") | self._ask("truth") | self._ask("measure"))
 
     def turning_rate(self, seconds, *rates):
         """Mean rate of the heading from now on [rad/s], and the state at the end."""
@@ -89,6 +88,14 @@ class Instrument:
         after = self.report()
         turned = math.remainder(after.heading - before.heading, 2 * math.pi)
         return turned / (after.time - before.time), after
+
+    def _ask(self, verb):
+        self._say(verb, [])
+        self.process.stdin.flush()
+        line = self.process.stdout.readline()
+        if not line:
+            raise RuntimeError(f"limphome-instrument ended with exit code {self.process.wait()}")
+        return json.loads(line)
 
     def _say(self, verb, numbers):
         self.process.stdin.write(" ".join([verb, *(repr(float(number)) for number in numbers)]) + "\n")

@@ -12,7 +12,7 @@ Written by `scripts/validate --report docs/validation.md`; do not edit. The simu
 References come from closed forms, or from the URDF alone by quasi-static analysis: the loads on the points of contact
 follow from the lever rule (on equal springs under a stiff body), and the motion is the one that loses least power to
 friction, the minimum of sum(mu N |slip|) over forward and sideways speed, yaw rate and the speeds of belts that turn
-freely. They share no code with the simulator. Cases run on the real simulation, driven by `limphome-experiment`.
+freely. They share no code with the simulator. Cases run on the real simulation, driven by `limphome-instrument`.
 
 {quantities}
 
