@@ -1,15 +1,15 @@
-// limphome-simulator: a robot in Bullet behind the messages a real one would speak.
+// limphome-simulator: a robot in Bullet as the machine of a plant, behind the messages a real one would speak.
 // Exit 0: stopped by a signal; 1: something went wrong on the way; 2: bad input, nothing was started.
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <optional>
 
+#include "bullet/world.h"
 #include "command_line.h"
-#include "link.h"
-#include "plant.h"
-#include "robot_model.h"
-#include "world.h"
+#include "model/robot_model.h"
+#include "plant/link.h"
+#include "plant/loop.h"
 
 namespace {
 
@@ -44,7 +44,7 @@ int main(int argc, char **argv) {
         return bad_input;
     }
     try {
-        return limphome::Plant(*world, *link, line.settings).run(&stop) ? done : went_wrong;
+        return limphome::Loop(*world, *link, line.settings).run(&stop) ? done : went_wrong;
     } catch (const std::exception &error) {
         std::fprintf(stderr, "%s\n", error.what());
         return went_wrong;

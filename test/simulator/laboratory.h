@@ -8,10 +8,10 @@
 #include <cmath>
 #include <string>
 
-#include "robot_model.h"
-#include "sensors.h"
-#include "truth.h"
-#include "world.h"
+#include "bullet/sensors.h"
+#include "bullet/truth.h"
+#include "bullet/world.h"
+#include "model/robot_model.h"
 
 namespace limphome::laboratory {
 
@@ -68,13 +68,14 @@ inline Eigen::Vector3d position(const World &world) {
 
 inline ground_truth_t truth(const World &world) {
     ground_truth_t t{};
-    read_truth(world, t);
+    world.truth(t);
     return t;
 }
 
+// What exact sensors read.
 inline robot_state_t state(const World &world) {
     robot_state_t s{};
-    read_sensors(world, s);
+    read_sensors(world.robot(), world.drives(), s);
     return s;
 }
 
@@ -87,9 +88,10 @@ inline double turning_rate(World &world, const Rates &rates, double seconds) {
 
 // Level ground seen from a robot that faces down a slope of this angle.
 inline Eigen::Vector3d downhill(double angle) {
-    return 9.81 * Eigen::Vector3d(0, std::sin(angle), -std::cos(angle));
+    return standard_gravity * Eigen::Vector3d(0, std::sin(angle), -std::cos(angle));
 }
 
 constexpr double degree = 0.017453292519943295;
+constexpr double decision_period = 0.5;  // of the default settings [s]
 
 }  // namespace limphome::laboratory

@@ -1,0 +1,25 @@
+#include "bullet/crawler.h"
+
+#include "bullet/mass_matrix.h"
+
+namespace limphome {
+namespace {
+
+constexpr double lying_flat = 1e-6;  // squared sine of the angle between sprocket and normal
+
+}  // namespace
+
+Eigen::Vector3d belt_direction(const Robot &robot, int crawler, const Eigen::Vector3d &normal) {
+    const Eigen::Vector3d along = joint_axis(robot.multibody(), crawler).direction.cross(normal);
+    // However the crawler is tilted, its belt keeps its speed.
+    return along.squaredNorm() > lying_flat ? along.normalized() : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
+Eigen::Vector3d belt_velocity(const Robot &robot, int crawler, const Eigen::Matrix3d &frame) {
+    const Eigen::Vector3d direction = belt_direction(robot, crawler, frame.col(0));
+    const double radius = robot.model().crawlers[static_cast<std::size_t>(crawler)].radius;
+    const Eigen::Vector3d forward = frame.transpose() * direction;
+    return -radius * forward;
+}
+
+}  // namespace limphome

@@ -1,0 +1,80 @@
+// The robot in Bullet: one multibody, and the shapes with which it can touch the ground.
+#pragma once
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+#include <btBulletCollisionCommon.h>
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <vector>
+
+#include "model/robot_model.h"
+
+namespace limphome {
+
+// Something of the robot that touches the ground in one point.
+struct ContactShape {
+    int part;         // as ground_truth_t.contact_part: actuator whose link (or belt) it belongs to; -1: base
+    bool on_crawler;  // the surface moves with the belt of crawler `part`
+    double friction;  // Coulomb coefficient on the ground
+};
+
+// Edge of a belt at one rounded end; rims are the first of the shapes.
+struct Rim {
+    Eigen::Vector3d centre;  // in the frame of the base [m]
+    Eigen::Vector3d axis;    // to the left, in the frame of the base
+    double radius;           // [m]
+    int next_on_edge;        // at the rear: rim at the front end of the same edge; at the front: -1
+};
+
+class Robot {
+   public:
+    Robot(const RobotModel &model, double friction_crawler, double friction_arm);
+
+    btMultiBody &multibody() { return multibody_; }
+    const btMultiBody &multibody() const { return multibody_; }
+    const RobotModel &model() const { return model_; }
+
+    // Colliders with shapes; the user index of each is the number of its first shape.
+    const std::vector<std::unique_ptr<btMultiBodyLinkCollider>> &colliders() const { return colliders_; }
+    const std::vector<ContactShape> &shapes() const { return shapes_; }
+    const std::vector<Rim> &rims() const { return rims_; }
+    // The ball that is `shape`, which must not be a rim, in the world.
+    Ball ball(int shape) const;
+    // Leaves this share of the friction to the belt of a crawler.
+    void scale_friction(int crawler, double share);
+
+    // Frame of the base link in the world.
+    Eigen::Isometry3d pose() const;
+    void set_pose(const Eigen::Isometry3d &pose);
+    // Brings link frames and colliders into line with pose and joint angles.
+    void update_frames();
+
+    Eigen::Vector3d centre_of_mass() const;
+    Eigen::Vector3d centre_of_mass_velocity() const;
+
+    // Belt travel [m] and speed [m/s] of a crawler, angle [rad] and rate [rad/s] of a joint.
+    double actuator_position(int actuator) const;
+    double actuator_velocity(int actuator) const;
+    // Belt travel per radian of the sprocket [m]; 1 for a joint.
+    double travel_per_radian(int actuator) const;
+
+   private:
+    void build_links();
+    void add_collider(int body, double friction_crawler, double friction_arm);
+    void add_crawler_edges(btCompoundShape &compound, int crawler, double friction);
+
+    RobotModel model_;
+    std::vector<Eigen::Isometry3d> principal_;  // per body: frame of its principal axes at its centre of mass
+    btMultiBody multibody_;
+    std::vector<std::unique_ptr<btCollisionShape>> geometry_;
+    std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
+    std::vector<ContactShape> shapes_;
+    std::vector<Rim> rims_;
+    std::vector<Ball> balls_;  // after the rims among the shapes; in the frames of Bullet's links
+    btAlignedObjectArray<btQuaternion> scratch_rotations_;
+    btAlignedObjectArray<btVector3> scratch_origins_;
+};
+
+}  // namespace limphome

@@ -1,0 +1,184 @@
+#include "bullet/scene.h"
+
+#include <cmath>
+
+#include "bullet/convert.h"
+
+namespace limphome {
+namespace {
+
+constexpr double static_deflection = 1e-3;    // of the ground under the robot's weight on its crawlers [m]
+constexpr double start_heading = 0.5 * M_PI;  // [rad]
+constexpr double settling_time = 0.5;         // [s]
+constexpr double longest_settling = 10;       // on uneven ground [s]
+constexpr double at_rest = 1e-4;              // [m/s, rad/s]
+constexpr int ground_group = 1, robot_group = 2;
+
+// Critically damped at the deflection above, so that the robot does not bounce.
+GroundStiffness ground_stiffness(const RobotModel &model) {
+    const double points = 4.0 * static_cast<double>(model.crawlers.size());
+    const double stiffness = model.mass() * standard_gravity / static_deflection / points;
+    return {stiffness, stiffness * 2 * std::sqrt(static_deflection / standard_gravity)};
+}
+
+std::vector<Drive> make_drives(const RobotModel &model, const settings &s) {
+    std::vector<Drive> drives;
+    const PidGains gains{s.drive.proportional, s.drive.integral, s.drive.derivative};
+    for (const Actuator &actuator : model.actuators) {
+        drives.emplace_back(actuator, gains, s.simulator.time_step_s);
+    }
+    return drives;
+}
+
+// To Bullet a plane is near everything; look only at what is low enough to touch it.
+void look_near_ground(btBroadphasePair &pair, btCollisionDispatcher &dispatcher, const btDispatcherInfo &info) {
+    const btBroadphaseProxy &first = *pair.m_pProxy0;
+    const btBroadphaseProxy &robot = first.m_collisionFilterGroup == robot_group ? first : *pair.m_pProxy1;
+    if (robot.m_aabbMin.z() < gContactBreakingThreshold) {
+        btCollisionDispatcher::defaultNearCallback(pair, dispatcher, info);
+    }
+}
+
+}  // namespace
+
+Pipeline::Pipeline(btDispatcher *dispatcher, btBroadphaseInterface *broadphase, btMultiBodyConstraintSolver *unused,
+                   btCollisionConfiguration *configuration, Robot &robot, const Ground &ground, const Solver &solver)
+    : btMultiBodyDynamicsWorld(dispatcher, broadphase, unused, configuration),
+      joints(robot.model().actuators.size()),
+      robot_(robot),
+      ground_(ground),
+      solver_(solver) {
+    for (const auto &collider : robot_.colliders()) {
+        addCollisionObject(collider.get(), robot_group, ground_group);
+    }
+    addMultiBody(&robot_.multibody());
+    const std::size_t room = 4 * robot_.shapes().size();  // a shape may touch uneven ground in several points
+    touches_.reserve(room);
+    contacts.reserve(room);
+    previous_.reserve(room);
+}
+
+void Pipeline::solveConstraints(btContactSolverInfo &info) {
+    solveExternalForces(info);
+    if (ground_.level()) {
+        plane_touches(*getDispatcher(), touches_);
+    } else {
+        ground_touches(robot_, ground_, touches_);
+    }
+    contacts.swap(previous_);
+    make_contacts(robot_, ground_, touches_, previous_, contacts);
+    solver_.solve(robot_.multibody(), joints, contacts, info.m_timeStep);
+}
+
+Scene::Scene(const RobotModel &model, const settings &s, const Ground &ground, const std::vector<Failure> &failures)
+    : robot(model, s.simulator.friction_crawler, s.simulator.friction_arm),
+      drives(make_drives(model, s)),
+      dispatcher_(&configuration_),
+      ground_shape_(btVector3(0, 0, 1), 0),
+      ground_(ground),
+      pipeline_(&dispatcher_, &broadphase_, &unused_solver_, &configuration_, robot, ground,
+                Solver(static_cast<int>(s.simulator.solver_iterations), ground_stiffness(model))),
+      time_step_(s.simulator.time_step_s) {
+    // See contacts of all shapes from the same distance, not from one that depends on their size.
+    dispatcher_.setDispatcherFlags(0);
+    plane_.setCollisionShape(&ground_shape_);
+    if (ground.level()) {
+        pipeline_.addCollisionObject(&plane_, ground_group, robot_group);
+    }
+    // Bullet gets its memory for a pair when it looks at it for the first and the second time: do that here for all.
+    pipeline_.performDiscreteCollisionDetection();
+    pipeline_.performDiscreteCollisionDetection();
+    dispatcher_.setNearCallback(look_near_ground);
+    set_gravity({0, 0, -standard_gravity});
+    for (const Failure &failure : failures) {
+        if (failure.time == 0) {
+            fail(failure);
+        }
+    }
+    place();
+    settle();
+}
+
+void Scene::fail(const Failure &failure) {
+    drives[static_cast<std::size_t>(failure.actuator)].fail(failure.condition, failure.weak_factor);
+    if (failure.condition == DriveCondition::slipping) {
+        robot.scale_friction(failure.actuator, failure.slip_factor);
+    }
+}
+
+void Scene::set_gravity(const Eigen::Vector3d &gravity) {
+    pipeline_.setGravity(to_bullet(gravity));
+}
+
+// Along the incline, as low as may be without being inside uneven ground.
+void Scene::place() {
+    const Eigen::Vector3d up = ground_.incline();
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up) *
+                    Eigen::AngleAxisd(start_heading, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    pose.translation().z() = ground_.highest() / up.z() - static_deflection;
+    robot.set_pose(pose);
+}
+
+// Keeps a robot that sinks in from sliding or turning away.
+void Scene::hold_in_place() {
+    Eigen::Isometry3d pose = robot.pose();
+    pose.translation().head<2>().setZero();
+    const double turned = std::atan2(pose(1, 0), pose(0, 0)) - start_heading;
+    pose.linear() = Eigen::AngleAxisd(-turned, Eigen::Vector3d::UnitZ()) * pose.linear();
+    robot.set_pose(pose);
+    btMultiBody &body = robot.multibody();
+    body.setBaseVel(btVector3(0, 0, body.getBaseVel().z()));
+    body.setBaseOmega(btVector3(body.getBaseOmega().x(), body.getBaseOmega().y(), 0));
+}
+
+bool Scene::rests() const {
+    const btMultiBody &body = robot.multibody();
+    return body.getBaseVel().length() < at_rest && body.getBaseOmega().length() < at_rest;
+}
+
+// Lets the robot sink in to its equilibrium, then puts it at the origin, at rest.
+void Scene::settle() {
+    for (double time = 0; time < settling_time || !(ground_.level() || rests() || time >= longest_settling);
+         time += time_step_) {
+        for (Contact &contact : pipeline_.contacts) {
+            contact.impulse.tail<2>().setZero();  // locks no friction in between the points of contact
+        }
+        step();
+        if (!ground_.level()) {
+            hold_in_place();
+        }
+    }
+    robot.multibody().clearVelocities();
+    const Eigen::Isometry3d pose = robot.pose();
+    const double turned = std::atan2(pose(1, 0), pose(0, 0)) - start_heading;
+    const Eigen::Isometry3d back = Eigen::AngleAxisd(-turned, Eigen::Vector3d::UnitZ()) *
+                                   Eigen::Translation3d(-pose.translation().x(), -pose.translation().y(), 0);
+    robot.set_pose(back * pose);
+    for (Contact &contact : pipeline_.contacts) {
+        contact.point = back * contact.point;
+        contact.frame = back.linear() * contact.frame;
+    }
+    for (std::size_t a = 0; a < drives.size(); a++) {
+        robot.multibody().setJointPos(static_cast<int>(a), robot.model().actuators[a].home);
+        drives[a].clear_integral();
+    }
+}
+
+void Scene::step() {
+    const btMultiBody &multibody = robot.multibody();
+    for (std::size_t a = 0; a < drives.size(); a++) {
+        const int joint = static_cast<int>(a);
+        pipeline_.joints[a] = drives[a].begin_step(multibody.getJointPos(joint), multibody.getJointVel(joint));
+    }
+    // Bullet keeps points of earlier steps that are still near; on these shapes they are out of date.
+    for (int i = 0; i < dispatcher_.getNumManifolds(); i++) {
+        dispatcher_.getManifoldByIndexInternal(i)->clearManifold();
+    }
+    pipeline_.stepSimulation(time_step_, 0);
+    for (std::size_t a = 0; a < drives.size(); a++) {
+        drives[a].end_step(pipeline_.joints[a], multibody.getJointVel(static_cast<int>(a)));
+    }
+}
+
+}  // namespace limphome

@@ -1,0 +1,210 @@
+#include "bullet/solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace limphome {
+namespace {
+
+// Sweeps end early once none of them changes a velocity by more than this [m/s, rad/s].
+constexpr double velocity_tolerance = 1e-7;
+
+}  // namespace
+
+void Solver::solve(btMultiBody &multibody, std::vector<JointConstraint> &joints, std::vector<Contact> &contacts,
+                   double time_step) {
+    const int dofs = base_dofs + multibody.getNumDofs();
+    free_.setZero();
+    free_.head(dofs) = Eigen::Map<const Eigen::VectorXd>(multibody.getVelocityVector(), dofs);
+    // Implicit in time: the spring is taken at the depth that the end of the step will have.
+    compliance_ = 1 / (time_step * (ground_.stiffness * time_step + ground_.damping));
+    mass_ = mass_matrix(multibody);
+    inverse_ = rigid_inverse(mass_);
+    bool all_held = true;
+    for (std::size_t j = 0; j < joints.size(); j++) {
+        if (!joints[j].held) {
+            release(static_cast<int>(j));
+            all_held = false;
+        }
+    }
+    if (all_held) {  // the usual case
+        hold_joints(joints);
+        try_to_solve<base_dofs>(joints, contacts, time_step);
+        all_held = !release_overloaded(joints, contacts);
+    }
+    if (!all_held) {
+        do {
+            hold_joints(joints);
+            try_to_solve<max_dofs>(joints, contacts, time_step);
+        } while (release_overloaded(joints, contacts));
+    }
+
+    const GeneralVector change = velocity_ - free_;
+    multibody.applyDeltaVeeMultiDof(change.data(), 1);
+}
+
+template <int dofs>
+void Solver::try_to_solve(std::vector<JointConstraint> &joints, std::vector<Contact> &contacts, double time_step) {
+    prepare_contacts<dofs>(contacts, time_step);
+    apply_known_impulses<dofs>(joints, contacts);
+    iterate<dofs>(joints, contacts);
+}
+
+// Lets a joint give way that inverse_ has taken for rigid: inversion by bordering, which adds one rank.
+void Solver::release(int joint) {
+    const GeneralVector column = mass_.col(base_dofs + joint);
+    GeneralVector direction = -inverse_.lazyProduct(column);  // how all else moves with the joint
+    direction[base_dofs + joint] = 1;
+    inverse_ += direction * (direction / direction.dot(column)).transpose();
+}
+
+// Velocities with the held joints at their targets: their drives change no momentum but their own.
+void Solver::hold_joints(const std::vector<JointConstraint> &joints) {
+    velocity_.setZero();
+    for (std::size_t j = 0; j < joints.size(); j++) {
+        if (joints[j].held) {
+            velocity_[base_dofs + static_cast<Eigen::Index>(j)] = joints[j].target;
+        }
+    }
+    const GeneralVector missing = mass_.lazyProduct(free_ - velocity_);
+    velocity_ += inverse_.lazyProduct(missing);
+}
+
+template <int dofs>
+void Solver::prepare_contacts(const std::vector<Contact> &contacts, double time_step) {
+    const double share = ground_.stiffness / (ground_.stiffness * time_step + ground_.damping);
+    rows_.reserve(contacts.capacity());  // there may be more in a later step
+    rows_.resize(contacts.size());
+    for (std::size_t i = 0; i < contacts.size(); i++) {
+        const Contact &contact = contacts[i];
+        const auto jacobian = contact.jacobian.topRows<dofs>();
+        ContactRow &row = rows_[i];
+        row.response.topRows<dofs>() = inverse_.topLeftCorner<dofs, dofs>().lazyProduct(jacobian);
+        row.effect = jacobian.transpose().lazyProduct(row.response.topRows<dofs>());
+        row.steady =
+            contact.jacobian.bottomRows<max_dofs - dofs>().transpose().lazyProduct(velocity_.tail<max_dofs - dofs>());
+        row.push = contact.depth > 0 ? share * contact.depth : contact.depth / time_step;
+        row.normal_step = 1 / (row.effect(0, 0) + compliance_);
+        const Eigen::Matrix2d tangential = row.effect.bottomRightCorner<2, 2>();
+        row.sticking = tangential.inverse();
+        const double mean = 0.5 * tangential.trace(), half = 0.5 * (tangential(0, 0) - tangential(1, 1));
+        row.slip_step = 1 / (mean + std::sqrt(half * half + tangential(0, 1) * tangential(0, 1)));
+    }
+}
+
+template <int dofs>
+void Solver::apply_known_impulses(const std::vector<JointConstraint> &joints, const std::vector<Contact> &contacts) {
+    for (std::size_t i = 0; i < contacts.size(); i++) {
+        velocity_.head<dofs>() += rows_[i].response.topRows<dofs>().lazyProduct(contacts[i].impulse);
+    }
+    for (std::size_t j = 0; j < joints.size(); j++) {
+        if (!joints[j].held) {
+            velocity_ += inverse_.col(base_dofs + static_cast<Eigen::Index>(j)) * joints[j].impulse;
+        }
+    }
+}
+
+template <int dofs>
+void Solver::iterate(std::vector<JointConstraint> &joints, std::vector<Contact> &contacts) {
+    for (int iteration = 0; iteration < iterations_; iteration++) {
+        double largest = 0;
+        for (std::size_t j = 0; j < joints.size(); j++) {
+            if (!joints[j].held) {
+                largest = std::max(largest, relax(joints[j], base_dofs + static_cast<int>(j)));
+            }
+        }
+        for (std::size_t i = 0; i < contacts.size(); i++) {
+            largest = std::max(largest, relax<dofs>(contacts[i], rows_[i]));
+        }
+        if (largest < velocity_tolerance) {
+            return;
+        }
+    }
+}
+
+// Returns the change of the joint's rate.
+double Solver::relax(JointConstraint &joint, int dof) {
+    const double response = inverse_(dof, dof);
+    const double others = velocity_[dof] - response * joint.impulse;  // rate without this impulse
+    double impulse = std::clamp((joint.target - others) / response, -joint.limit, joint.limit);
+    const double rate = others + response * impulse;
+    const double stopped = std::clamp(rate, joint.lowest, joint.highest);
+    if (stopped != rate) {
+        impulse = (stopped - others) / response;
+    }
+    const double change = impulse - joint.impulse;
+    velocity_ += inverse_.col(dof) * change;
+    joint.impulse = impulse;
+    return std::abs(change) * response;
+}
+
+// Returns the largest change of the contact's relative velocity.
+template <int dofs>
+double Solver::relax(Contact &contact, const ContactRow &row) {
+    Eigen::Vector3d relative = row.steady;
+    relative += contact.jacobian.topRows<dofs>().transpose().lazyProduct(velocity_.head<dofs>());
+    Eigen::Vector3d change;
+    const double normal = std::max(
+        contact.impulse[0] + row.normal_step * (row.push - relative[0] - compliance_ * contact.impulse[0]), 0.0);
+    change[0] = normal - contact.impulse[0];
+    const Eigen::Vector2d slip = relative.tail<2>() + row.effect.block<2, 1>(1, 0) * change[0];
+
+    // Stick if friction is able to hold. Else project onto its limit: with the same step for all directions this is at
+    // rest only where friction opposes the slip, which clamping each direction by its own effective mass is not.
+    const Eigen::Vector2d friction = contact.impulse.tail<2>();
+    const double limit = contact.friction * normal;
+    Eigen::Vector2d wanted = friction - row.sticking * slip;
+    if (wanted.squaredNorm() > limit * limit) {
+        wanted = friction - row.slip_step * slip;
+        const double size = wanted.norm();
+        if (size > limit) {
+            wanted *= limit / size;
+        }
+    }
+    change.tail<2>() = wanted - friction;
+    velocity_.head<dofs>() += row.response.topRows<dofs>().lazyProduct(change);
+    contact.impulse += change;
+    return row.effect.diagonal().cwiseProduct(change).cwiseAbs().maxCoeff();
+}
+
+// Finds the impulses of the held joints. Those that ask too much of their drive are released, and true is returned: the
+// step has to be solved again. Others that came to their target are held in the next step.
+bool Solver::release_overloaded(std::vector<JointConstraint> &joints, const std::vector<Contact> &contacts) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    GeneralVector impulse = GeneralVector::Zero();
+    for (const Contact &contact : contacts) {
+        impulse += contact.jacobian.lazyProduct(contact.impulse);
+    }
+    for (std::size_t j = 0; j < joints.size(); j++) {
+        if (!joints[j].held) {
+            impulse[base_dofs + static_cast<Eigen::Index>(j)] += joints[j].impulse;
+        }
+    }
+    const GeneralVector drives = mass_.lazyProduct(velocity_ - free_) - impulse;
+
+    bool released = false;
+    for (std::size_t j = 0; j < joints.size(); j++) {
+        JointConstraint &joint = joints[j];
+        if (!joint.held) {
+            continue;
+        }
+        joint.impulse = drives[base_dofs + static_cast<Eigen::Index>(j)];
+        const double most = joint.target <= joint.lowest ? infinity : joint.limit;
+        const double least = joint.target >= joint.highest ? -infinity : -joint.limit;
+        if (joint.impulse > most || joint.impulse < least) {
+            joint.impulse = std::clamp(joint.impulse, -joint.limit, joint.limit);
+            joint.held = false;
+            release(static_cast<int>(j));
+            released = true;
+        }
+    }
+    if (!released) {
+        for (JointConstraint &joint : joints) {
+            joint.held = joint.held || std::abs(joint.impulse) < joint.limit;
+        }
+    }
+    return released;
+}
+
+}  // namespace limphome

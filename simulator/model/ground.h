@@ -1,0 +1,76 @@
+// The ground: level, or an incline with rough ground, steps and loose patches on it, as far as the settings ask for
+// them.
+#pragma once
+
+#include <settings.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace limphome {
+
+constexpr double standard_gravity = 9.81;  // [m/s^2]
+
+// Values drawn from a seed at the nodes of a square lattice, which is repeated for ever.
+class Lattice {
+   public:
+    Lattice(const std::vector<double> &values, double spacing) : values_(values), spacing_(spacing) {}
+
+    // Value and its derivatives along x and y, of the uniform cubic B-spline of the values: smooth, and within them.
+    Eigen::Vector3d smooth(double x, double y) const;
+    // Value of the cell that (x, y) lies in.
+    double cell(double x, double y) const;
+
+    static constexpr int size = 64;  // nodes along each side
+
+   private:
+    double at(long column, long row) const;
+
+    std::vector<double> values_;
+    double spacing_;  // [m]
+};
+
+// A point against the ground.
+struct Clearance {
+    double distance;         // to the nearest point of the ground; below 0 inside it [m]
+    Eigen::Vector3d normal;  // out of the ground there, unit
+};
+
+// It is the union of pieces, each without inner corners: incline and rough ground, and, if there are any, the raised
+// strips between steps.
+class Ground {
+   public:
+    explicit Ground(const settings &configuration);
+
+    int pieces() const { return step_height_ > 0 ? 2 : 1; }
+    // Against one piece. Exact for inclines and steps, to first order over rough ground. Edges of steps are rounded.
+    Clearance clearance(const Eigen::Vector3d &point, int piece) const;
+    // Against all.
+    Clearance clearance(const Eigen::Vector3d &point) const;
+
+    // z = 0 everywhere; friction may still differ.
+    bool level() const { return level_; }
+    // Height of the surface, seen from above [m].
+    double height(double x, double y) const;
+    // No point of the ground is higher above the incline [m].
+    double highest() const { return highest_; }
+    // Unit normal of the incline.
+    Eigen::Vector3d incline() const;
+    // Share of the friction that is left.
+    double friction(const Eigen::Vector3d &point) const;
+
+   private:
+    Clearance over_base(const Eigen::Vector3d &point) const;
+    Clearance over_strips(const Eigen::Vector3d &point, const Clearance &base) const;
+
+    bool level_;
+    Eigen::Vector2d slope_;  // rise per metre along x and y
+    double highest_;
+    double step_height_, step_spacing_;
+    bool rough_, patched_;
+    double patch_share_, patch_friction_;
+    Lattice bumps_;    // heights [m]
+    Lattice patches_;  // loose where below the share
+};
+
+}  // namespace limphome

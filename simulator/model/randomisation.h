@@ -1,0 +1,17 @@
+// Robots and grounds that differ a little from reset to reset.
+#pragma once
+
+#include <settings.h>
+
+#include <cstdint>
+
+#include "model/robot_model.h"
+
+namespace limphome {
+
+// Draws friction (for crawlers and for all else), the mass of each body and the torque limit of each drive, uniformly
+// from the ranges that the settings give about what `model` and `configuration` hold. Depends on seed and episode
+// alone.
+void randomise(RobotModel &model, settings &configuration, int64_t episode);
+
+}  // namespace limphome

@@ -1,0 +1,65 @@
+// The robot as its URDF file describes it: rigid bodies, actuators and what may touch the ground.
+//
+// Links joined by fixed joints are merged, so there is one body per actuator and one for the base. Body 0 is the base;
+// actuator a moves body a + 1. The frame of a body is the URDF frame of the link its joint moves: x forward, y left,
+// z up when all joints are at 0.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "plant/capacity.h"
+
+namespace limphome {
+
+constexpr int num_crawlers = 2;  // left, right
+
+// Part of a body that may touch the ground. A radius of 0 is a point.
+struct Ball {
+    Eigen::Vector3d centre;  // in the frame of the body [m]
+    double radius;           // [m]
+};
+
+struct Body {
+    std::string name;
+    int parent = -1;                                          // body it hangs on; -1 for the base
+    Eigen::Isometry3d joint = Eigen::Isometry3d::Identity();  // this frame in the parent's at joint angle 0
+    Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();          // of the joint, in this frame
+    double mass = 0;                                          // [kg]
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();         // of mass, in this frame [m]
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();        // about the centre of mass, axes of this frame [kg m^2]
+    std::vector<Ball> balls;
+};
+
+struct Actuator {
+    std::string name;
+    double lower = 0;  // least and largest joint angle [rad]; crawler: infinite
+    double upper = 0;
+    double effort = 0;  // largest torque of the drive [N m]
+    double speed = 0;   // largest rate of the joint [rad/s]
+    double home = 0;    // angle in the initial pose [rad]
+};
+
+// Belt of `radius` round both ends, rigid with the base; its sprocket is the joint of the actuator of the same index.
+struct Crawler {
+    Eigen::Vector3d centre;  // in the frame of the base [m]
+    Eigen::Vector3d axis;    // of the sprocket, in the frame of the base; positive turning drives forward
+    double length;           // over all [m]
+    double width;            // [m]
+    double radius;           // [m]
+};
+
+struct RobotModel {
+    std::string name;
+    std::vector<Body> bodies;         // base, then one per actuator; each after its parent
+    std::vector<Actuator> actuators;  // left crawler, right crawler, arm joints from root to tip
+    std::vector<Crawler> crawlers;    // left, right
+
+    double mass() const;  // [kg]
+};
+
+// Reads a URDF file with its <limphome> element. Throws std::runtime_error naming file and element.
+RobotModel read_robot(const std::string &path);
+
+}  // namespace limphome

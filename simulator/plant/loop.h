@@ -1,0 +1,51 @@
+// The plant's loop: takes a machine through sessions and decision periods, in lockstep with the controller or in real
+// time. It knows nothing of the machine but what machine.h says.
+#pragma once
+
+#include <settings.h>
+
+#include <csignal>
+
+#include "plant/link.h"
+#include "plant/machine.h"
+
+namespace limphome {
+
+class Loop {
+   public:
+    // Throws std::runtime_error if the settings ask for lockstep and the machine cannot pause.
+    Loop(Machine &machine, Link &link, const settings &s);
+
+    // Runs until *stop is not 0. A machine that diverges is reported and reset, in a new session. False if that happens
+    // again and again.
+    bool run(const volatile std::sig_atomic_t *stop);
+
+   private:
+    bool follow(const volatile std::sig_atomic_t *stop);
+    void begin();              // a session: publishes the state the machine is in, at rest
+    void restart();            // new session from the initial pose
+    bool recover();            // from a machine that diverged; false if there is no use
+    void publish();            // state and truth
+    bool advance_lockstep();   // waits for the command that answers the newest state, then one decision period
+    bool advance_real_time();  // follows the clock to the end of the decision period, obeying commands as they come
+    void obey();               // takes over a fresh command, or ramps to rest when the last one is too old
+    void report(int8_t condition);
+    void report_each_second();
+
+    Machine &machine_;
+    Link &link_;
+    const settings settings_;
+    const double started_;
+    double clock_ = 0;      // real time: when the present decision period began [s, monotonic]
+    double obeyed_at_ = 0;  // when the newest command came [s, monotonic]
+    velocity_command_t obeyed_{};
+    double report_due_ = 0;  // [s, monotonic]
+    int64_t decisions_ = 0;
+    int64_t late_ = 0;
+    int32_t episode_ = 0;  // that began with the newest session
+    int64_t faults_ = 0;
+    int faults_in_a_row_ = 0;        // sessions that ended by a fault, but for those in which nothing was done
+    int64_t session_decisions_ = 0;  // in this session
+};
+
+}  // namespace limphome

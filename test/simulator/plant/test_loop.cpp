@@ -1,0 +1,293 @@
+// The loop and the link with a machine of a few lines, and a controller of a few lines on the same bus (memq://, which
+// stays in this process). This program links neither Bullet nor Eigen nor urdfdom.
+#include "plant/loop.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <stdexcept>
+#include <vector>
+
+#include "limphome_channels.h"
+
+namespace limphome {
+namespace {
+
+using Rates = std::array<double, max_actuators>;
+const Rates rest{};
+
+// Three actuators that do at once what they are told.
+class Toy : public Machine {
+   public:
+    int num_actuators() const override { return 3; }
+    void reset(int64_t episode) override {
+        EXPECT_EQ(commands.back(), rest);
+        episodes.push_back(episode);
+        place = {};
+    }
+    void command(const double velocity[max_actuators]) override {
+        Rates rates;
+        std::copy(velocity, velocity + max_actuators, rates.begin());
+        commands.push_back(rates);
+    }
+    void sense(robot_state_t &state) override {
+        state.utime = 17;
+        state.num_actuators = 3;
+        std::copy(place.begin(), place.end(), state.actuator_position);
+    }
+    Health health(int actuator) const override { return actuator == 0 ? Health::failed : Health::obeys; }
+
+    Rates place{};
+    std::vector<Rates> commands;
+    std::vector<int64_t> episodes;
+};
+
+// Its time is its own.
+class SimulatedToy : public Toy {
+   public:
+    void advance(double seconds) override {
+        periods.push_back(seconds);
+        for (std::size_t a = 0; a < place.size(); a++) {
+            place[a] += seconds * commands.back()[a];
+        }
+    }
+    bool can_pause() const override { return true; }
+    double simulated_time() const override { return 11; }
+    int64_t saturated() const override { return 13; }
+    bool truth(ground_truth_t &truth) const override {
+        truth.stability_margin = 0.25;
+        return true;
+    }
+
+    std::vector<double> periods;
+};
+
+settings lockstep() {
+    settings s = settings_default();
+    s.simulator.pace = SETTINGS_LOCKSTEP;
+    return s;
+}
+
+settings real_time() {
+    settings s = settings_default();
+    s.simulator.pace = SETTINGS_REAL_TIME;
+    s.episode.decision_period_s = 0.02;
+    s.link.command_timeout_s = 0.01;
+    return s;
+}
+
+// Hears all that a plant says; what it answers is up to the test.
+class Controller {
+   public:
+    explicit Controller(Link &link) : bus_(link.bus()) {
+        bus_.subscribe(LIMPHOME_CHANNEL_STATE, &Controller::hear_state, this);
+        bus_.subscribe(LIMPHOME_CHANNEL_TRUTH, &Controller::hear_truth, this);
+        bus_.subscribe(LIMPHOME_CHANNEL_STATUS, &Controller::hear_status, this);
+    }
+
+    void command(const robot_state_t &state, const Rates &rates) {
+        velocity_command_t command{};
+        command.session = state.session;
+        command.seq = state.seq;
+        command.sender = 1;
+        command.num_actuators = state.num_actuators;
+        std::copy(rates.begin(), rates.end(), command.velocity);
+        bus_.publish(LIMPHOME_CHANNEL_COMMAND, &command);
+    }
+    void ask_for_reset(const robot_state_t &state, int32_t episode) {
+        reset_request_t request{};
+        request.session = state.session;
+        request.seq = state.seq;
+        request.sender = 1;
+        request.episode = episode;
+        bus_.publish(LIMPHOME_CHANNEL_RESET, &request);
+    }
+
+    std::function<void(const robot_state_t &)> answer;
+    std::vector<robot_state_t> states;
+    std::vector<ground_truth_t> truths;
+    std::vector<status_t> statuses;
+
+   private:
+    void hear_state(const lcm::ReceiveBuffer *, const std::string &, const robot_state_t *state) {
+        states.push_back(*state);
+        answer(*state);
+    }
+    void hear_truth(const lcm::ReceiveBuffer *, const std::string &, const ground_truth_t *truth) {
+        truths.push_back(*truth);
+    }
+    void hear_status(const lcm::ReceiveBuffer *, const std::string &, const status_t *status) {
+        statuses.push_back(*status);
+    }
+
+    lcm::LCM &bus_;
+};
+
+// A plant with its controller.
+struct Plant {
+    Plant(Machine &machine, const settings &s)
+        : link("memq://", s, machine.num_actuators()), loop(machine, link, s), controller(link) {}
+
+    bool run() {
+        const bool sound = loop.run(&stop);
+        link.wait(0);  // hears the last words
+        return sound;
+    }
+
+    Link link;
+    Loop loop;
+    Controller controller;
+    volatile std::sig_atomic_t stop = 0;
+};
+
+TEST(Loop, InLockstepEachCommandLastsOneDecisionPeriod) {
+    SimulatedToy toy;
+    Plant plant(toy, lockstep());
+    plant.controller.answer = [&plant](const robot_state_t &state) {
+        plant.controller.command(state, {0.1, 0.2, 0.1 * static_cast<double>(state.seq)});
+        plant.stop = state.seq == 3;
+    };
+    EXPECT_TRUE(plant.run());
+    ASSERT_GE(plant.controller.states.size(), 4U);
+    for (std::size_t i = 0; i < 4; i++) {
+        const robot_state_t &state = plant.controller.states[i];
+        EXPECT_EQ(state.seq, i);
+        EXPECT_EQ(state.session, plant.controller.states[0].session);
+        EXPECT_EQ(state.lockstep, 1);
+        EXPECT_EQ(state.utime, 17);
+        EXPECT_EQ(state.actuator_health[0], 1);
+        EXPECT_EQ(state.actuator_health[1], 0);
+        EXPECT_DOUBLE_EQ(state.actuator_position[0], 0.05 * static_cast<double>(i));
+    }
+    EXPECT_DOUBLE_EQ(plant.controller.states[3].actuator_position[2], 0.5 * (0.1 + 0.2));
+    EXPECT_GE(toy.periods.size(), 3U);
+    EXPECT_TRUE(std::all_of(toy.periods.begin(), toy.periods.end(), [](double period) { return period == 0.5; }));
+    EXPECT_EQ(toy.commands.front(), rest);
+    EXPECT_EQ(toy.commands.back(), rest);
+    EXPECT_TRUE(toy.episodes.empty());
+}
+
+TEST(Loop, TellsWhatOnlyASimulatorKnows) {
+    SimulatedToy toy;
+    Plant plant(toy, lockstep());
+    plant.controller.answer = [&plant](const robot_state_t &) { plant.stop = 1; };
+    plant.run();
+    ASSERT_EQ(plant.controller.truths.size(), 1U);
+    EXPECT_EQ(plant.controller.truths[0].stability_margin, 0.25);
+    EXPECT_EQ(plant.controller.truths[0].session, plant.controller.states[0].session);
+    EXPECT_EQ(plant.controller.truths[0].utime, 17);
+    ASSERT_FALSE(plant.controller.statuses.empty());
+    EXPECT_EQ(plant.controller.statuses.back().condition, status_t::FINISHED);
+    EXPECT_EQ(plant.controller.statuses.back().simulated_time, 11);
+    EXPECT_EQ(plant.controller.statuses.back().saturated, 13);
+}
+
+TEST(Loop, ResetsTheMachineInANewSession) {
+    SimulatedToy toy;
+    Plant plant(toy, lockstep());
+    plant.controller.answer = [&](const robot_state_t &state) {
+        if (!toy.episodes.empty()) {
+            plant.stop = 1;
+        } else if (state.seq == 1) {
+            plant.controller.ask_for_reset(state, 7);
+        } else {
+            plant.controller.command(state, {0.1, 0.1, 0.1});
+        }
+    };
+    EXPECT_TRUE(plant.run());
+    EXPECT_EQ(toy.episodes, std::vector<int64_t>{7});
+    ASSERT_EQ(plant.controller.states.size(), 3U);
+    EXPECT_GT(plant.controller.states[1].actuator_position[0], 0);
+    EXPECT_NE(plant.controller.states[2].session, plant.controller.states[1].session);
+    EXPECT_EQ(plant.controller.states[2].seq, 0);
+    EXPECT_EQ(plant.controller.states[2].actuator_position[0], 0);
+}
+
+// Does so whenever it has been told to move.
+class DivergingToy : public SimulatedToy {
+   public:
+    bool diverged() const override { return place != rest; }
+};
+
+TEST(Loop, ReportsAMachineThatDivergesAndGivesUpInTheEnd) {
+    DivergingToy toy;
+    Plant plant(toy, lockstep());
+    plant.controller.answer = [&plant](const robot_state_t &state) { plant.controller.command(state, {0.1}); };
+    EXPECT_FALSE(plant.run());
+    EXPECT_EQ(plant.controller.states.size(), 10U);
+    for (const robot_state_t &state : plant.controller.states) {
+        EXPECT_EQ(state.seq, 0);
+        EXPECT_EQ(state.actuator_position[0], 0);
+    }
+    const auto faults = std::count_if(plant.controller.statuses.begin(), plant.controller.statuses.end(),
+                                      [](const status_t &status) { return status.condition == status_t::FAULT; });
+    EXPECT_EQ(faults, 10);
+    EXPECT_EQ(plant.controller.statuses.back().faults, 10);
+    EXPECT_EQ(toy.episodes, std::vector<int64_t>(9, 0));
+    EXPECT_EQ(toy.commands.back(), rest);
+}
+
+TEST(Loop, RefusesLockstepWithAMachineThatCannotPause) {
+    Toy toy;
+    Link link("memq://", lockstep(), toy.num_actuators());
+    try {
+        Loop(toy, link, lockstep());
+        FAIL() << "was not refused";
+    } catch (const std::runtime_error &error) {
+        EXPECT_NE(std::string(error.what()).find("pace = lockstep"), std::string::npos) << error.what();
+    }
+}
+
+// A command is obeyed as it is, then too old: down to rest, and never up again.
+TEST(Loop, InRealTimeASilentControllerLetsTheMachineComeToRest) {
+    class Moving : public Toy {
+       public:
+        explicit Moving(volatile std::sig_atomic_t *stop) : stop_(stop) {}
+        void command(const double velocity[max_actuators]) override {
+            Toy::command(velocity);
+            moved_ = moved_ || velocity[0] > 0;
+            *stop_ = moved_ && velocity[0] == 0 ? 1 : 0;
+        }
+
+       private:
+        volatile std::sig_atomic_t *stop_;
+        bool moved_ = false;
+    };
+    volatile std::sig_atomic_t at_rest = 0;
+    Moving toy(&at_rest);
+    Plant plant(toy, real_time());
+    plant.controller.answer = [&](const robot_state_t &state) {
+        EXPECT_EQ(state.lockstep, 0);
+        if (state.seq == 0) {
+            plant.controller.command(state, {0.3, -0.2, 0.1});
+        }
+        plant.stop = at_rest;
+    };
+    EXPECT_TRUE(plant.run());
+    const auto fastest = std::max_element(toy.commands.begin(), toy.commands.end());
+    EXPECT_EQ(*fastest, (Rates{0.3, -0.2, 0.1}));
+    EXPECT_TRUE(std::is_sorted(fastest, toy.commands.end(), std::greater<>()));
+    EXPECT_EQ(toy.commands.back(), rest);
+    EXPECT_GT(plant.controller.statuses.back().late, 0);
+    EXPECT_EQ(plant.controller.statuses.back().simulated_time, 0);
+    EXPECT_TRUE(plant.controller.truths.empty());
+}
+
+TEST(Loop, MachineIsAtRestWhateverEndsTheLoop) {
+    class Broken : public SimulatedToy {
+       public:
+        void advance(double) override { throw std::runtime_error("a fuse has blown"); }
+    };
+    Broken toy;
+    Plant plant(toy, lockstep());
+    plant.controller.answer = [&plant](const robot_state_t &state) { plant.controller.command(state, {0.3}); };
+    EXPECT_THROW(plant.run(), std::runtime_error);
+    ASSERT_GE(toy.commands.size(), 3U);
+    EXPECT_EQ(toy.commands[toy.commands.size() - 2], Rates{0.3});
+    EXPECT_EQ(toy.commands.back(), rest);
+}
+
+}  // namespace
+}  // namespace limphome
