@@ -16,7 +16,8 @@ lh_learner_config lh_learner_config_default(void) {
 }
 
 lh_error lh_learner_config_validate(const lh_learner_config *config) {
-    if (!lh_within(config->learning_rate, 0.0f, 1.0f) || !lh_within(config->discount_rate, 0.0f, 1.0f)) {
+    if (!lh_within(config->learning_rate, 0.0f, LH_LEARNING_RATE_MAX) ||
+        !lh_within(config->discount_rate, 0.0f, LH_DISCOUNT_RATE_MAX)) {
         return LH_ERROR_RATE;
     }
     return lh_network_config_validate(&config->network);

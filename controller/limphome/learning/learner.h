@@ -13,6 +13,10 @@
 extern "C" {
 #endif
 
+/* Ranges of lh_learner_config, from 0. */
+#define LH_LEARNING_RATE_MAX 1.0f
+#define LH_DISCOUNT_RATE_MAX 1.0f
+
 typedef struct lh_learner_config {
     float learning_rate;       /* alpha of (2), 0 to 1; paper: 0.1 */
     float discount_rate;       /* gamma of (1), 0 to 1; paper: 0.9 */
