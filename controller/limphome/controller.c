@@ -30,10 +30,12 @@ lh_config lh_config_default(void) {
 }
 
 lh_error lh_config_validate(const lh_config *config) {
-    if (!lh_within(config->crawler_speed, 0.01f, 2.0f) || !lh_within(config->joint_speed, 0.01f, 2.0f)) {
+    if (!lh_within(config->crawler_speed, LH_SPEED_MIN, LH_SPEED_MAX) ||
+        !lh_within(config->joint_speed, LH_SPEED_MIN, LH_SPEED_MAX)) {
         return LH_ERROR_SPEED;
     }
-    if (!lh_within(config->temperature_floor, 1e-4f, 10.0f) || !lh_within(config->support_tolerance, 0.001f, 1.0f)) {
+    if (!lh_within(config->temperature_floor, LH_TEMPERATURE_FLOOR_MIN, LH_TEMPERATURE_FLOOR_MAX) ||
+        !lh_within(config->support_tolerance, LH_SUPPORT_TOLERANCE_MIN, LH_SUPPORT_TOLERANCE_MAX)) {
         return LH_ERROR_LIMIT;
     }
     lh_error error = lh_learner_config_validate(&config->learner);
