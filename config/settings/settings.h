@@ -24,7 +24,7 @@ extern "C" {
 /* The enums of choices.def: settings_gradient, settings_turn, settings_failed, settings_failure_mode, settings_pace. */
 #define CHOICES(name) enum settings_##name {
 #define WORD(enumerator, word) enumerator,
-#define END_CHOICES };
+#define END_CHOICES(name) };
 #include "choices.def"
 
 /* Columns of keys.def as fields of a struct; ranges and meanings stand there. */

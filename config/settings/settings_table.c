@@ -11,12 +11,13 @@
 /* clang-format off */
 #define CHOICES(name) static const char *const name##_words[] = {
 #define WORD(enumerator, word) word,
-#define END_CHOICES NULL};
+#define END_CHOICES(name) \
+    NULL};                \
+    enum { name##_last = sizeof name##_words / sizeof name##_words[0] - 2 };
 #include "choices.def"
 
 #define DECIDES true
 #define NEUTRAL false
-#define LAST_WORD(words) (sizeof words##_words / sizeof words##_words[0] - 2)
 #define NUMBER(kind, section, name, field, low, high, standard, hash, meaning) \
     {section, name, kind, offsetof(settings, field), (double)(low), (double)(high), standard, NULL, hash, meaning},
 
@@ -25,11 +26,12 @@ const settings_key settings_keys[SETTINGS_KEY_COUNT] = {
     NUMBER(SETTINGS_KIND_REAL, #section, #name, section.name, low, high, standard, hash, meaning)
 #define WHOLE(section, name, low, high, standard, hash, meaning) \
     NUMBER(SETTINGS_KIND_WHOLE, #section, #name, section.name, low, high, standard, hash, meaning)
-#define CHOICE(section, name, words, standard, hash, meaning)                                 \
-    {#section, #name, SETTINGS_KIND_CHOICE, offsetof(settings, section.name), 0, LAST_WORD(words), \
-     standard, words##_words, hash, meaning},
-#define SENSOR_REAL(quantity, name, low, high, standard, hash, meaning)                             \
-    NUMBER(SETTINGS_KIND_REAL, "sensors", #quantity "_" #name, sensors.quantity.name, low, high, standard, hash, meaning)
+#define CHOICE(section, name, words, standard, hash, meaning)                                            \
+    {#section, #name, SETTINGS_KIND_CHOICE, offsetof(settings, section.name), 0, words##_last, standard, \
+     words##_words, hash, meaning},
+#define SENSOR_REAL(quantity, name, low, high, standard, hash, meaning)                          \
+    NUMBER(SETTINGS_KIND_REAL, "sensors", #quantity "_" #name, sensors.quantity.name, low, high, \
+           standard, hash, meaning)
 #include "keys.def"
 };
 /* clang-format on */
