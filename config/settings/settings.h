@@ -10,10 +10,12 @@
 #ifndef LIMPHOME_SETTINGS_H
 #define LIMPHOME_SETTINGS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 
+#include "fail.h"
 #include "key_groups.h"
 
 #ifdef __cplusplus
@@ -55,22 +57,19 @@ typedef struct settings {
 } settings;
 /* clang-format on */
 
-/* Length of an error text that always fits. */
-#define SETTINGS_ERROR_LENGTH 1024
-
 /* The paper's experiment. */
 settings settings_default(void);
 
-/* Reads `path` over what `s` holds. 0 on success; else -1 and a text with file, line, key and range in `error`. */
-int settings_read(settings *s, const char *path, char error[SETTINGS_ERROR_LENGTH]);
+/* Reads `path` over what `s` holds. False, nothing read and a text with file, line, key and range if it is refused. */
+bool settings_read(settings *s, const char *path, char error[ERROR_LENGTH]);
 
-/* Applies one `section.key=value` from the command line. 0 on success, else -1 and a text in `error`. */
-int settings_set(settings *s, const char *assignment, char error[SETTINGS_ERROR_LENGTH]);
+/* Applies one `section.key=value` from the command line. False, nothing changed and a text if it is refused. */
+bool settings_set(settings *s, const char *assignment, char error[ERROR_LENGTH]);
 
 /* Checks, once all are known, that every value is in its range and that what holds between two keys does. Settings that
  * pass are accepted by the library, and by the simulator as far as they do not depend on the robot.
- * 0 on success, else -1 and a text with both keys and their values in `error`. */
-int settings_check(const settings *s, char error[SETTINGS_ERROR_LENGTH]);
+ * False and a text with the key, or both keys, and values if not. */
+bool settings_check(const settings *s, char error[ERROR_LENGTH]);
 
 /* Writes every key with its value as an INI file that settings_read accepts and that gives the same settings. */
 void settings_write(const settings *s, FILE *out);

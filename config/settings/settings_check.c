@@ -53,9 +53,7 @@ static bool check_range(const settings_key *key, const settings *s, char *error)
     char allowed[SETTINGS_RANGE_LENGTH];
     settings_key_value(key, s, value);
     settings_key_range(key, allowed);
-    snprintf(error, SETTINGS_ERROR_LENGTH, "[%s] %s = %s: not allowed; %s is %s", key->section, key->name, value,
-             key->name, allowed);
-    return false;
+    return fail_with(error, "[%s] %s = %s: not allowed; %s is %s", key->section, key->name, value, key->name, allowed);
 }
 
 static bool check_relation(const struct relation *relation, const settings *s, char *error) {
@@ -68,21 +66,17 @@ static bool check_relation(const struct relation *relation, const settings *s, c
     char other_value[SETTINGS_VALUE_LENGTH];
     settings_key_value(key, s, value);
     settings_key_value(other, s, other_value);
-    snprintf(error, SETTINGS_ERROR_LENGTH, "[%s] %s = %s: %s [%s] %s = %s", key->section, key->name, value,
-             relation->must_be, other->section, other->name, other_value);
-    return false;
+    return fail_with(error, "[%s] %s = %s: %s [%s] %s = %s", key->section, key->name, value, relation->must_be,
+                     other->section, other->name, other_value);
 }
 
-int settings_check(const settings *s, char error[SETTINGS_ERROR_LENGTH]) {
-    for (size_t i = 0; i < SETTINGS_KEY_COUNT; i++) {
-        if (!check_range(&settings_keys[i], s, error)) {
-            return -1;
-        }
+bool settings_check(const settings *s, char error[ERROR_LENGTH]) {
+    bool good = true;
+    for (size_t i = 0; i < SETTINGS_KEY_COUNT && good; i++) {
+        good = check_range(&settings_keys[i], s, error);
     }
-    for (size_t i = 0; i < sizeof relations / sizeof relations[0]; i++) {
-        if (!check_relation(&relations[i], s, error)) {
-            return -1;
-        }
+    for (size_t i = 0; i < sizeof relations / sizeof relations[0] && good; i++) {
+        good = check_relation(&relations[i], s, error);
     }
-    return 0;
+    return good;
 }

@@ -27,23 +27,21 @@ static void list_known(const char *section, char *text, size_t size) {
     }
 }
 
-/* Sets one key; on failure writes `place: [section] name = value: why` to `error`. */
-static int set_key(settings *s, const char *place, const char *section, const char *name, const char *value,
-                   char *error) {
+/* Sets one key; the text of a failure begins with `place`. */
+static bool set_key(settings *s, const char *place, const char *section, const char *name, const char *value,
+                    char *error) {
     char allowed[SETTINGS_RANGE_LENGTH];
     const settings_key *key = settings_key_find(section, name);
     if (key == NULL) {
         list_known(section, allowed, sizeof allowed);
-        snprintf(error, SETTINGS_ERROR_LENGTH, "%s: [%.40s] %.40s: unknown key; %s", place, section, name, allowed);
-        return -1;
+        return fail_with(error, "%s: [%.40s] %.40s: unknown key; %s", place, section, name, allowed);
     }
     if (!settings_key_parse(key, s, value)) {
         settings_key_range(key, allowed);
-        snprintf(error, SETTINGS_ERROR_LENGTH, "%s: [%s] %s = %.60s: not allowed; %s is %s", place, section, name,
-                 value, name, allowed);
-        return -1;
+        return fail_with(error, "%s: [%s] %s = %.60s: not allowed; %s is %s", place, section, name, value, name,
+                         allowed);
     }
-    return 0;
+    return true;
 }
 
 /* State of one settings_read, shared by the line reader and the handler that inih calls. */
@@ -60,7 +58,7 @@ struct reading {
 /* The newest line is refused. NULL, for the reader to return: no more lines are wanted. */
 static char *refuse_line(struct reading *reading, const char *why) {
     reading->failed_at = reading->line;
-    snprintf(reading->error, SETTINGS_ERROR_LENGTH, "%.200s:%d: %s", reading->path, reading->line, why);
+    fail_with(reading->error, "%.200s:%d: %s", reading->path, reading->line, why);
     return NULL;
 }
 
@@ -76,20 +74,35 @@ static bool goes_on_after_section(const char *line) {
     return *end != '\0' && *end != ';' && *end != '#';
 }
 
-/* Reads a line for inih, without its end, which is \n, \r\n or \r, and without blanks before it, which inih would take
- * for the sign of a value that goes on. */
+/* The next character of a line, or EOF at its end, which is \n, \r\n, \r or that of the file. */
+static int next_in_line(FILE *file) {
+    int c = getc(file);
+    if (c == '\r') {
+        c = getc(file);
+        if (c != '\n') {
+            ungetc(c, file);
+        }
+        return EOF;
+    }
+    return c == '\n' ? EOF : c;
+}
+
+static bool at_end(FILE *file) {
+    const int c = getc(file);
+    ungetc(c, file); /* nothing if it is EOF */
+    return c == EOF;
+}
+
+/* Reads a line for inih, without its end and the blanks before it: to inih a line that begins with blanks goes on with
+ * the value of the one before. */
 static char *read_line(char *line, int size, void *stream) {
     struct reading *reading = stream;
-    if (reading->failed_at != 0) {
-        return NULL;
-    }
-    int c = getc(reading->file);
-    if (c == EOF) {
+    if (reading->failed_at != 0 || at_end(reading->file)) {
         return NULL;
     }
     reading->line++;
     int length = 0;
-    for (; c != EOF && c != '\n' && c != '\r'; c = getc(reading->file)) {
+    for (int c; (c = next_in_line(reading->file)) != EOF;) {
         if (c == '\0') {
             return refuse_line(reading, "a byte of value 0; not a text file in ASCII or UTF-8");
         }
@@ -104,76 +117,68 @@ static char *read_line(char *line, int size, void *stream) {
         line[length++] = (char)c;
     }
     line[length] = '\0';
-    if (c == '\r') {
-        c = getc(reading->file);
-        if (c != '\n') {
-            ungetc(c, reading->file);
-        }
-    }
     if (goes_on_after_section(line)) {
         return refuse_line(reading, "[section] must stand on a line of its own");
     }
     return line;
 }
 
-static int handle_pair(void *user, const char *section, const char *name, const char *value) {
-    struct reading *reading = user;
-    if (reading->failed_at != 0) {
-        return 1;
-    }
+/* Takes over one pair, unless its key has been set before. */
+static bool take_pair(struct reading *reading, const char *section, const char *name, const char *value) {
     char place[256];
     snprintf(place, sizeof place, "%.200s:%d", reading->path, reading->line);
     const settings_key *key = settings_key_find(section, name);
     if (key != NULL && reading->set_at[key - settings_keys] != 0) {
-        snprintf(reading->error, SETTINGS_ERROR_LENGTH, "%s: [%s] %s: already set at line %d", place, section, name,
-                 reading->set_at[key - settings_keys]);
-        reading->failed_at = reading->line;
-        return 1;
+        return fail_with(reading->error, "%s: [%s] %s: already set at line %d", place, section, name,
+                         reading->set_at[key - settings_keys]);
     }
-    if (set_key(reading->s, place, section, name, value, reading->error) != 0) {
-        reading->failed_at = reading->line;
-        return 1;
+    if (!set_key(reading->s, place, section, name, value, reading->error)) {
+        return false;
     }
     reading->set_at[key - settings_keys] = reading->line;
+    return true;
+}
+
+static int handle_pair(void *user, const char *section, const char *name, const char *value) {
+    struct reading *reading = user;
+    if (reading->failed_at == 0 && !take_pair(reading, section, name, value)) {
+        reading->failed_at = reading->line;
+    }
     return 1;
 }
 
-int settings_read(settings *s, const char *path, char error[SETTINGS_ERROR_LENGTH]) {
+bool settings_read(settings *s, const char *path, char error[ERROR_LENGTH]) {
     settings read = *s; /* nothing is taken over unless all of it is good */
-    struct reading reading = {.s = &read, .path = path, .error = error, .file = fopen(path, "r")};
+    char refusal[ERROR_LENGTH] = "";
+    struct reading reading = {.s = &read, .path = path, .error = refusal, .file = fopen(path, "r")};
     if (reading.file == NULL) {
-        snprintf(error, SETTINGS_ERROR_LENGTH, "%.200s: cannot be opened: %s", path, strerror(errno));
-        return -1;
+        return fail_with(error, "%.200s: cannot be opened: %s", path, strerror(errno));
     }
     const int first_bad = ini_parse_stream(read_line, &reading, handle_pair, &reading);
     const bool broken = ferror(reading.file) != 0;
     fclose(reading.file);
     if (broken || first_bad < 0) {
-        snprintf(error, SETTINGS_ERROR_LENGTH, "%.200s: cannot be read", path);
-        return -1;
+        return fail_with(error, "%.200s: cannot be read", path);
     }
     /* inih goes on after a line it cannot read: tell of whichever error comes first. */
     if (first_bad > 0 && !(reading.failed_at != 0 && reading.failed_at <= first_bad)) {
-        snprintf(error, SETTINGS_ERROR_LENGTH, "%.200s:%d: neither [section], key = value, nor comment", path,
-                 first_bad);
-        return -1;
+        return fail_with(error, "%.200s:%d: neither [section], key = value, nor comment", path, first_bad);
     }
     if (reading.failed_at != 0) {
-        return -1;
+        return fail_with(error, "%s", refusal);
     }
     *s = read;
-    return 0;
+    return true;
 }
 
-int settings_set(settings *s, const char *assignment, char error[SETTINGS_ERROR_LENGTH]) {
+bool settings_set(settings *s, const char *assignment, char error[ERROR_LENGTH]) {
     char section[64];
     char name[64];
     const char *dot = strchr(assignment, '.');
     const char *equals = strchr(assignment, '=');
     if (dot == NULL || equals == NULL || dot > equals || (size_t)(dot - assignment) >= sizeof section ||
         (size_t)(equals - dot - 1) >= sizeof name) {
-        snprintf(error, SETTINGS_ERROR_LENGTH, "--set %.100s: must be section.key=value", assignment);
-        return -1;
+        return fail_with(error, "--set %.100s: must be section.key=value", assignment);
     }
     snprintf(section, sizeof section, "%.*s", (int)(dot - assignment), assignment);
     snprintf(name, sizeof name, "%.*s", (int)(equals - dot - 1), dot + 1);

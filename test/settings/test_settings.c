@@ -14,7 +14,7 @@
 static char path[] = "/tmp/limphome_settings_XXXXXX";
 
 /* Reads `text` as an INI file over the defaults. */
-static int read_text(settings *s, const char *text, char error[SETTINGS_ERROR_LENGTH]) {
+static bool read_text(settings *s, const char *text, char error[ERROR_LENGTH]) {
     char name[sizeof path];
     memcpy(name, path, sizeof path);
     const int file = mkstemp(name);
@@ -22,17 +22,17 @@ static int read_text(settings *s, const char *text, char error[SETTINGS_ERROR_LE
     ck_assert_int_eq(write(file, text, strlen(text)), (ssize_t)strlen(text));
     close(file);
     *s = settings_default();
-    const int result = settings_read(s, name, error);
+    const bool result = settings_read(s, name, error);
     unlink(name);
     return result;
 }
 
 /* `text` must be refused, with each of the words in the error, and nothing taken over. */
 static void check_refused(const char *text, const char *const *words) {
-    char error[SETTINGS_ERROR_LENGTH] = "";
+    char error[ERROR_LENGTH] = "";
     settings s;
     const settings standard = settings_default();
-    ck_assert_int_eq(read_text(&s, text, error), -1);
+    ck_assert(!read_text(&s, text, error));
     ck_assert_mem_eq(&s, &standard, sizeof s);
     for (; *words != NULL; words++) {
         ck_assert_msg(strstr(error, *words) != NULL, "error \"%s\" lacks \"%s\"", error, *words);
@@ -59,9 +59,9 @@ END_TEST
 
 START_TEST(paper_ini_is_the_default) {
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
+    char error[ERROR_LENGTH] = "";
     const settings standard = settings_default();
-    ck_assert_msg(settings_read(&s, CONFIG_DIR "/paper.ini", error) == 0, "%s", error);
+    ck_assert_msg(settings_read(&s, CONFIG_DIR "/paper.ini", error), "%s", error);
     s.episode.tumble_tilt_rad = standard.episode.tumble_tilt_rad; /* printed with fewer digits */
     ck_assert_mem_eq(&s, &standard, sizeof s);
 }
@@ -69,11 +69,11 @@ END_TEST
 
 START_TEST(reads_comments_spaces_and_choices) {
     settings s;
-    char error[SETTINGS_ERROR_LENGTH] = "";
+    char error[ERROR_LENGTH] = "";
     ck_assert_msg(read_text(&s,
                             "; a comment\n[learning]\n  \nseed=7\nlearning_rate = 1e-2 ; inline\n\n[failure]\n"
                             "actuator = right_crawler\nmode = free\n[second_failure]\nactuator = joint_3",
-                            error) == 0,
+                            error),
                   "%s", error);
     ck_assert_int_eq(s.learning.seed, 7);
     ck_assert_double_eq(s.learning.learning_rate, 0.01);
@@ -95,8 +95,8 @@ static const char *const layouts[] = {
 
 START_TEST(reads_every_layout) {
     settings s;
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    ck_assert_msg(read_text(&s, layouts[_i], error) == 0, "%s", error);
+    char error[ERROR_LENGTH] = "";
+    ck_assert_msg(read_text(&s, layouts[_i], error), "%s", error);
     ck_assert_int_eq(s.learning.seed, 7);
     ck_assert_int_eq(s.learning.episodes, 3);
 }
@@ -110,8 +110,8 @@ START_TEST(refuses_a_byte_that_is_no_text) {
     ck_assert_int_eq(write(file, utf16, sizeof utf16), (ssize_t)sizeof utf16);
     close(file);
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    ck_assert_int_eq(settings_read(&s, name, error), -1);
+    char error[ERROR_LENGTH] = "";
+    ck_assert(!settings_read(&s, name, error));
     ck_assert_ptr_nonnull(strstr(error, ":1: a byte of value 0"));
     unlink(name);
 }
@@ -157,23 +157,23 @@ END_TEST
 
 START_TEST(refuses_a_missing_file) {
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    ck_assert_int_eq(settings_read(&s, "/nowhere/at_all.ini", error), -1);
+    char error[ERROR_LENGTH] = "";
+    ck_assert(!settings_read(&s, "/nowhere/at_all.ini", error));
     ck_assert_ptr_nonnull(strstr(error, "/nowhere/at_all.ini"));
-    ck_assert_int_eq(settings_read(&s, "/", error), -1);
+    ck_assert(!settings_read(&s, "/", error));
 }
 END_TEST
 
 START_TEST(set_takes_one_assignment) {
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    ck_assert_int_eq(settings_set(&s, "simulator.pace=real_time", error), 0);
+    char error[ERROR_LENGTH] = "";
+    ck_assert(settings_set(&s, "simulator.pace=real_time", error));
     ck_assert_int_eq(s.simulator.pace, SETTINGS_REAL_TIME);
     static const char *const bad[] = {"",   "seed=1", "learning.seed",  "learning.seed=", "learning.seed=x",
                                       ".=", "a.b=c",  "learning=seed.1"};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         const settings before = s;
-        ck_assert_msg(settings_set(&s, bad[i], error) == -1, "%s was accepted", bad[i]);
+        ck_assert_msg(!settings_set(&s, bad[i], error), "%s was accepted", bad[i]);
         ck_assert_ptr_nonnull(strstr(error, "--set"));
         ck_assert_mem_eq(&s, &before, sizeof s);
     }
@@ -211,10 +211,10 @@ static const struct {
 
 START_TEST(check_names_both_of_two_that_do_not_go_together) {
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    ck_assert_int_eq(settings_set(&s, relations[_i].first, error), 0);
-    ck_assert_int_eq(settings_set(&s, relations[_i].second, error), 0);
-    ck_assert_int_eq(settings_check(&s, error), -1);
+    char error[ERROR_LENGTH] = "";
+    ck_assert(settings_set(&s, relations[_i].first, error));
+    ck_assert(settings_set(&s, relations[_i].second, error));
+    ck_assert(!settings_check(&s, error));
     ck_assert_msg(strstr(error, relations[_i].text) == error, "error \"%s\" is not \"%s\"", error, relations[_i].text);
 }
 END_TEST
@@ -236,26 +236,30 @@ static const struct {
 
 START_TEST(check_accepts_what_goes_together) {
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    ck_assert_int_eq(settings_set(&s, agreements[_i].first, error), 0);
-    ck_assert_int_eq(settings_set(&s, agreements[_i].second, error), 0);
-    ck_assert_msg(settings_check(&s, error) == 0, "%s", error);
+    char error[ERROR_LENGTH] = "";
+    ck_assert(settings_set(&s, agreements[_i].first, error));
+    ck_assert(settings_set(&s, agreements[_i].second, error));
+    ck_assert_msg(settings_check(&s, error), "%s", error);
 }
 END_TEST
 
+/* Settings that were made by a program, not read. */
+static void check_out_of_range(const settings *s, const char *text) {
+    char error[ERROR_LENGTH] = "";
+    ck_assert(!settings_check(s, error));
+    ck_assert_str_eq(error, text);
+}
+
 START_TEST(check_wants_every_value_in_its_range) {
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
     s.episode.step_limit = 0;
-    ck_assert_int_eq(settings_check(&s, error), -1);
-    ck_assert_str_eq(error, "[episode] step_limit = 0: not allowed; step_limit is a whole number from 1 to 100000");
+    check_out_of_range(&s, "[episode] step_limit = 0: not allowed; step_limit is a whole number from 1 to 100000");
     s = settings_default();
     s.failure.mode = SETTINGS_SLIPPING + 1;
-    ck_assert_int_eq(settings_check(&s, error), -1);
-    ck_assert_ptr_nonnull(strstr(error, "one of: locked free weak slipping"));
+    check_out_of_range(&s, "[failure] mode = ?: not allowed; mode is one of: locked free weak slipping");
     s = settings_default();
     s.reward.goal = NAN;
-    ck_assert_int_eq(settings_check(&s, error), -1);
+    check_out_of_range(&s, "[reward] goal = nan: not allowed; goal is a number from 0 to 1000");
 }
 END_TEST
 
@@ -269,8 +273,8 @@ START_TEST(what_is_written_reads_back_the_same) {
     settings_write(&s, out);
     fclose(out);
     settings read;
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    ck_assert_msg(read_text(&read, text, error) == 0, "%s", error);
+    char error[ERROR_LENGTH] = "";
+    ck_assert_msg(read_text(&read, text, error), "%s", error);
     ck_assert_mem_eq(&read, &s, sizeof s);
 }
 END_TEST
@@ -294,9 +298,9 @@ END_TEST
  * changes these on purpose. */
 START_TEST(hash_is_that_of_earlier_checkpoints) {
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
+    char error[ERROR_LENGTH] = "";
     ck_assert_uint_eq(settings_hash(&s), 0x73899731a6698265);
-    ck_assert_msg(settings_read(&s, CONFIG_DIR "/paper.ini", error) == 0, "%s", error);
+    ck_assert_msg(settings_read(&s, CONFIG_DIR "/paper.ini", error), "%s", error);
     ck_assert_uint_eq(settings_hash(&s), 0x001a4dc38067d67e);
 }
 END_TEST

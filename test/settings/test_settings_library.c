@@ -49,8 +49,8 @@ static double draw_value(const settings_key *key, uint64_t *state) {
 }
 
 static bool is_accepted(const settings *s) {
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    if (settings_check(s, error) != 0) {
+    char error[ERROR_LENGTH] = "";
+    if (!settings_check(s, error)) {
         ck_assert_str_ne(error, "");
         return false;
     }
