@@ -73,14 +73,14 @@ static void print_help(command_line_program program) {
 
 /* Applies the file and the assignments, in this order wherever they stood; says what is wrong on stderr. */
 static command_line_result resolve(settings *s, const char *config, char *const *assignments, int count) {
-    char error[SETTINGS_ERROR_LENGTH];
+    char error[ERROR_LENGTH] = "";
     char own[CONFIG_PATH_LENGTH];
     *s = settings_default();
-    bool good = config == NULL || settings_read(s, config_path_find(config, own), error) == 0;
+    bool good = config == NULL || settings_read(s, config_path_find(config, own), error);
     for (int i = 0; i < count && good; i++) {
-        good = settings_set(s, assignments[i], error) == 0;
+        good = settings_set(s, assignments[i], error);
     }
-    good = good && settings_check(s, error) == 0;
+    good = good && settings_check(s, error);
     if (!good) {
         fprintf(stderr, "%s\n", error);
     }

@@ -32,7 +32,7 @@ static recording_header make_header(const char *run) {
     char error[ERROR_LENGTH] = "";
     settings s = settings_default();
     snprintf(path, sizeof path, "%s/config.ini", run);
-    if (settings_read(&s, path, error) != 0) {
+    if (!settings_read(&s, path, error)) {
         fprintf(stderr, "%s\n", error);
         exit(1);
     }

@@ -85,10 +85,17 @@ def xoshiro(seed):
 
 def random_numbers():
     seeds = [0, 1, 12345, 2**64 - 1]
-    lines.append("/* seeds of random_output */\nstatic const uint64_t random_seed[4] = {"
-                 + ", ".join(f"{s}u" for s in seeds) + "};\n")
-    emit("uint32_t", "random_output", [list(itertools.islice(xoshiro(s), 8)) for s in seeds],
-         "first numbers of xoshiro128** seeded through splitmix64")
+    lines.append(
+        "/* seeds of random_output */\nstatic const uint64_t random_seed[4] = {"
+        + ", ".join(f"{s}u" for s in seeds)
+        + "};\n"
+    )
+    emit(
+        "uint32_t",
+        "random_output",
+        [list(itertools.islice(xoshiro(s), 8)) for s in seeds],
+        "first numbers of xoshiro128** seeded through splitmix64",
+    )
 
 
 # --- selection (3)(4) ---
@@ -165,8 +172,10 @@ def network():
     emit("double", "network_y", [value(w, sigma, mu, a) for a in x], "y of (13)")
     emit("float", "learn_alpha", alpha, "alpha of (2)")
     emit("float", "learn_delta", delta, "delta of (1)")
-    for name, rule, text in (("printed", learn_printed, "(19)-(21) as printed"),
-                             ("exact", learn_exact, "(16)-(18) with the derivative of (15) by central differences")):
+    for name, rule, text in (
+        ("printed", learn_printed, "(19)-(21) as printed"),
+        ("exact", learn_exact, "(16)-(18) with the derivative of (15) by central differences"),
+    ):
         results = [rule(w, sigma, mu, *case) for case in zip(x, alpha, delta)]
         for part, parameter in enumerate(("weight", "width", "centre")):
             emit("double", f"{name}_{parameter}", [r[part] for r in results], f"after one step from each x: {text}")
@@ -198,8 +207,10 @@ def learner():
         w, sigma, mu = learn_printed(w, sigma, mu, x, alpha, delta)
         deltas.append(delta)
         maxima.append(q_next)
-    lines.append(f"enum {{ LEARNER_STEPS = {steps}, LEARNER_STATES = {states}, LEARNER_CONTROLLED = {controlled}, "
-                 f"LEARNER_UNITS = {units} }};\n")
+    lines.append(
+        f"enum {{ LEARNER_STEPS = {steps}, LEARNER_STATES = {states}, LEARNER_CONTROLLED = {controlled}, "
+        f"LEARNER_UNITS = {units} }};\n"
+    )
     emit("float", "learner_state", s, "state inputs before each step, and after the last")
     emit("int32_t", "learner_action", action, "joint action of each step")
     emit("float", "learner_reward", reward, "r of each step")
@@ -224,11 +235,14 @@ def attitude(yaw, pitch, roll):
 
 def quaternion(r, sign=1):
     """The eigenvector of Bar-Itzhack's matrix for its largest eigenvalue, as w, x, y, z, with w of the given sign."""
-    k = mpmath.matrix([
-        [r[0, 0] - r[1, 1] - r[2, 2], r[1, 0] + r[0, 1], r[2, 0] + r[0, 2], r[2, 1] - r[1, 2]],
-        [r[1, 0] + r[0, 1], r[1, 1] - r[0, 0] - r[2, 2], r[2, 1] + r[1, 2], r[0, 2] - r[2, 0]],
-        [r[2, 0] + r[0, 2], r[2, 1] + r[1, 2], r[2, 2] - r[0, 0] - r[1, 1], r[1, 0] - r[0, 1]],
-        [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], np.trace(r)]])
+    k = mpmath.matrix(
+        [
+            [r[0, 0] - r[1, 1] - r[2, 2], r[1, 0] + r[0, 1], r[2, 0] + r[0, 2], r[2, 1] - r[1, 2]],
+            [r[1, 0] + r[0, 1], r[1, 1] - r[0, 0] - r[2, 2], r[2, 1] + r[1, 2], r[0, 2] - r[2, 0]],
+            [r[2, 0] + r[0, 2], r[2, 1] + r[1, 2], r[2, 2] - r[0, 0] - r[1, 1], r[1, 0] - r[0, 1]],
+            [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], np.trace(r)],
+        ]
+    )
     x, y, z, w = mpmath.eigsy(k)[1][:, 3]
     return sign * mpmath.sign(w) * np.array([w, x, y, z])
 
@@ -323,9 +337,11 @@ class Crawler:
             turn = np.eye(3, dtype=int)
             if joint.get("name") in self.arms:
                 turn = rotation(numbers(joint.find("axis"), "xyz"), angles[self.arms.index(joint.get("name"))])
-            frames[joint.find("child").get("link")] = (frames[joint.find("parent").get("link")]
-                                                       @ transform(np.eye(3, dtype=int), numbers(joint.find("origin"), "xyz"))
-                                                       @ transform(turn, 0))
+            frames[joint.find("child").get("link")] = (
+                frames[joint.find("parent").get("link")]
+                @ transform(np.eye(3, dtype=int), numbers(joint.find("origin"), "xyz"))
+                @ transform(turn, 0)
+            )
         return frames
 
     def posture(self, body, angles):
@@ -339,8 +355,10 @@ class Crawler:
             moment += mass * (frames[link.get("name")] @ [*centre, 1])[:3]
             total += mass
         marks = self.root.find("limphome")
-        supports = [(frames[s.get("link")] @ [*numbers(s, "xyz"), 1])[:3]
-                    for s in [*marks.findall("support"), marks.find("tip")]]
+        supports = [
+            (frames[s.get("link")] @ [*numbers(s, "xyz"), 1])[:3]
+            for s in [*marks.findall("support"), marks.find("tip")]
+        ]
         supports[-1][2] -= mpf(marks.find("tip").get("radius"))
         return moment / total, np.array(supports)
 
@@ -358,7 +376,9 @@ def kinematics():
     emit("double", "posture_mass", [p[0] for p in postures], "centre of mass, body origin, world axes [m]")
     emit("double", "posture_supports", [p[1] for p in postures], "four of the crawlers, then the tip's lowest [m]")
     centre, supports = postures[0]
-    emit("double", "initial_margin", [margin(list(supports[:4]), centre)], "S_NE of the initial pose, tip in the air [m]")
+    emit(
+        "double", "initial_margin", [margin(list(supports[:4]), centre)], "S_NE of the initial pose, tip in the air [m]"
+    )
 
 
 # --- rewards (5)-(9)(12) ---
@@ -392,6 +412,8 @@ rotations()
 stability()
 kinematics()
 rewards()
-head = ("/* Written by reference.py; do not edit. */\n/* clang-format off */\n"
-        "#ifndef LIMPHOME_TEST_REFERENCE_H\n#define LIMPHOME_TEST_REFERENCE_H\n\n#include <stdint.h>\n\n")
+head = (
+    "/* Written by reference.py; do not edit. */\n/* clang-format off */\n"
+    "#ifndef LIMPHOME_TEST_REFERENCE_H\n#define LIMPHOME_TEST_REFERENCE_H\n\n#include <stdint.h>\n\n"
+)
 print(head + "\n".join(lines) + "\n#endif")

@@ -24,6 +24,12 @@ BAD_FILES = [
         "[episode]\ndecision_period_s = 0.1234\n",
         ["decision_period_s = 0.1234", "whole number", "time_step_s"],
     ),
+    (
+        "two that the library takes only apart",
+        "[rbf]\nwidth_floor = 1\ninitial_width = 0.5\n",
+        ["[rbf] initial_width = 0.5", "[rbf] width_floor = 1"],
+    ),
+    ("section and key on a line", "[learning] seed = 7\n", ["bad.ini:1", "[section]", "line of its own"]),
 ]
 BAD_SETS = [
     ("no dot", "seed=1", ["--set seed=1", "section.key=value"]),
