@@ -1,6 +1,7 @@
 #include "bus.h"
 
 #include <errno.h>
+#include <math.h>
 #include <poll.h>
 #include <stdio.h>
 #include <string.h>
@@ -76,36 +77,48 @@ static void receive_status(const lcm_recv_buf_t *buffer, const char *channel, vo
     }
 }
 
-bool bus_open(bus *b, const char *url, const char *log_path, bool append) {
-    memset(b, 0, sizeof *b);
+static bool join_bus(bus *b, const char *url, char error[ERROR_LENGTH]) {
     b->lcm = lcm_create(url);
     if (b->lcm == NULL) {
-        fprintf(stderr,
-                "%s: cannot join the bus; is the multicast group routed? (ip route add 239.255.76.67/32 dev lo)\n",
-                url == NULL ? "default LCM URL" : url);
-        return false;
+        return fail_with(
+            error, "%s: cannot join the bus; is the multicast group routed? (ip route add 239.255.76.67/32 dev lo)",
+            url == NULL ? "default LCM URL" : url);
     }
     if (lcm_subscribe(b->lcm, "LIMPHOME_STATE", receive_state, b) == NULL ||
         lcm_subscribe(b->lcm, "LIMPHOME_STATUS", receive_status, b) == NULL) {
-        fprintf(stderr, "the bus does not let us listen; is a firewall in the way?\n");
-        lcm_destroy(b->lcm);
-        return false;
+        return fail_with(error, "the bus does not let us listen; is a firewall in the way?");
     }
-    if (log_path != NULL && (b->log = lcm_eventlog_create(log_path, append ? "a" : "w")) == NULL) {
-        fprintf(stderr, "%s: cannot be written: %s\n", log_path, strerror(errno));
-        lcm_destroy(b->lcm);
-        return false;
-    }
-    return getrandom(&b->sender, sizeof b->sender, 0) == (ssize_t)sizeof b->sender;
+    return true;
 }
 
-bool bus_close(bus *b) {
+static bool open_log(bus *b, const char *path, bool append, char error[ERROR_LENGTH]) {
+    b->log = path == NULL ? NULL : lcm_eventlog_create(path, append ? "a" : "w");
+    return path == NULL || b->log != NULL || fail_with(error, "%s: cannot be written: %s", path, strerror(errno));
+}
+
+static bool draw_sender(bus *b, char error[ERROR_LENGTH]) {
+    return getrandom(&b->sender, sizeof b->sender, 0) == (ssize_t)sizeof b->sender ||
+           fail_with(error, "no random numbers from the system: %s", strerror(errno));
+}
+
+bool bus_open(bus *b, const char *url, const char *log_path, bool append, char error[ERROR_LENGTH]) {
+    memset(b, 0, sizeof *b);
+    if (draw_sender(b, error) && join_bus(b, url, error) && open_log(b, log_path, append, error)) {
+        return true;
+    }
+    if (b->lcm != NULL) {
+        lcm_destroy(b->lcm);
+    }
+    return false;
+}
+
+bool bus_close(bus *b, char error[ERROR_LENGTH]) {
     lcm_destroy(b->lcm);
     if (b->log != NULL) {
         b->log_failed = fflush(b->log->f) != 0 || b->log_failed;
         lcm_eventlog_destroy(b->log);
     }
-    return !b->log_failed;
+    return !b->log_failed || fail_with(error, "messages.lcmlog is not complete");
 }
 
 /* Whether a message can be handled without waiting longer than `milliseconds`; -1 on an error other than a signal. */
@@ -117,7 +130,7 @@ static int readable(bus *b, int milliseconds) {
 
 bool bus_wait(bus *b, double timeout) {
     const double begin = bus_now();
-    int ready = readable(b, (int)(timeout * 1000));
+    int ready = readable(b, (int)ceil(timeout * 1000));
     b->wait_time += bus_now() - begin;
     for (; ready > 0; ready = readable(b, 0)) {
         if (lcm_handle(b->lcm) != 0) {

@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "fail.h"
 #include "limphome_decision_t.h"
 #include "limphome_episode_t.h"
 #include "limphome_policy_t.h"
@@ -31,13 +32,14 @@ typedef struct bus {
 } bus;
 
 /* Joins the bus at `url` (NULL: LCM's default) and opens `log_path` (NULL: none), adding to it if `append`.
- * False, with the reason on stderr, on failure. */
-bool bus_open(bus *b, const char *url, const char *log_path, bool append);
+ * False, with the reason in `error` and nothing left open, on failure. */
+bool bus_open(bus *b, const char *url, const char *log_path, bool append, char error[ERROR_LENGTH]);
 
-/* Leaves the bus and closes the log. False if the log is not complete. */
-bool bus_close(bus *b);
+/* Leaves the bus and closes the log. False, with the reason in `error`, if the log is not complete. */
+bool bus_close(bus *b, char error[ERROR_LENGTH]);
 
-/* Waits at most `timeout` [s] for messages and takes in all that are there. False if the bus is broken. */
+/* Waits at most `timeout` [s], rounded up to milliseconds, for messages and takes in all that are there. False if the
+ * bus is broken. */
 bool bus_wait(bus *b, double timeout);
 
 /* Hands out the newest state heard since the last call; false if there is none. */

@@ -2,39 +2,59 @@
 
 #include <string.h>
 
+#include "limphome/task/action.h"
+
+static lh_task_config convert_task(const settings *s) {
+    return (lh_task_config){
+        .crawler_speed = (float)s->action.crawler_speed,
+        .joint_speed = (float)s->action.joint_speed,
+        .support_tolerance = lh_task_config_default().support_tolerance,
+        .reward =
+            {
+                .forward = (float)s->reward.forward,
+                .sideways = (float)s->reward.sideways,
+                .turn = (float)s->reward.turn,
+                .heading_error = s->reward.turn_of == SETTINGS_TURN_ERROR,
+                .goal = (float)s->reward.goal,
+                .stability = (float)s->reward.stability,
+                .tumble = (float)s->reward.tumble,
+            },
+        .episode =
+            {
+                .goal_distance = (float)s->episode.goal_distance_m,
+                .step_limit = (int32_t)s->episode.step_limit,
+                .tumble_tilt = (float)s->episode.tumble_tilt_rad,
+                .reset_every = (int32_t)s->episode.reset_every,
+            },
+    };
+}
+
+static lh_q_learning_config convert_q_learning(const settings *s) {
+    return (lh_q_learning_config){
+        .learning_rate = (float)s->learning.learning_rate,
+        .discount_rate = (float)s->learning.discount_rate,
+        .temperature_floor = (float)s->exploration.temperature_floor,
+        .network =
+            {
+                .units = (int32_t)s->rbf.units,
+                .inputs = lh_network_config_default().inputs, /* until the task is known */
+                .rate_weight = (float)s->rbf.rate_weight,
+                .rate_width = (float)s->rbf.rate_width,
+                .rate_centre = (float)s->rbf.rate_centre,
+                .initial_weight = (float)s->rbf.initial_weight,
+                .initial_width = (float)s->rbf.initial_width,
+                .width_floor = (float)s->rbf.width_floor,
+                .weight_limit = (float)s->rbf.weight_limit,
+                .exact_gradient = s->rbf.gradient == SETTINGS_GRADIENT_EXACT,
+            },
+    };
+}
+
 lh_config convert_config(const settings *s) {
     lh_config config = lh_config_default();
-    config.seed = (uint64_t)s->learning.seed;
-    config.crawler_speed = (float)s->action.crawler_speed;
-    config.joint_speed = (float)s->action.joint_speed;
-    config.temperature_floor = (float)s->exploration.temperature_floor;
-
-    config.learner.learning_rate = (float)s->learning.learning_rate;
-    config.learner.discount_rate = (float)s->learning.discount_rate;
-
-    lh_network_config *network = &config.learner.network;
-    network->units = (int32_t)s->rbf.units;
-    network->rate_weight = (float)s->rbf.rate_weight;
-    network->rate_width = (float)s->rbf.rate_width;
-    network->rate_centre = (float)s->rbf.rate_centre;
-    network->initial_weight = (float)s->rbf.initial_weight;
-    network->initial_width = (float)s->rbf.initial_width;
-    network->width_floor = (float)s->rbf.width_floor;
-    network->weight_limit = (float)s->rbf.weight_limit;
-    network->exact_gradient = s->rbf.gradient == SETTINGS_GRADIENT_EXACT;
-
-    config.reward.forward = (float)s->reward.forward;
-    config.reward.sideways = (float)s->reward.sideways;
-    config.reward.turn = (float)s->reward.turn;
-    config.reward.heading_error = s->reward.turn_of == SETTINGS_TURN_ERROR;
-    config.reward.goal = (float)s->reward.goal;
-    config.reward.stability = (float)s->reward.stability;
-    config.reward.tumble = (float)s->reward.tumble;
-
-    config.episode.goal_distance = (float)s->episode.goal_distance_m;
-    config.episode.step_limit = (int32_t)s->episode.step_limit;
-    config.episode.tumble_tilt = (float)s->episode.tumble_tilt_rad;
-    config.episode.reset_every = (int32_t)s->episode.reset_every;
+    config.task = convert_task(s);
+    config.learner.seed = (uint64_t)s->learning.seed;
+    config.learner.q_learning = convert_q_learning(s);
     return config;
 }
 
@@ -65,39 +85,60 @@ lh_controlled convert_controlled(const limphome_robot_state_t *message) {
     return controlled;
 }
 
-limphome_decision_t convert_decision(const lh_decision *d, const limphome_robot_state_t *state) {
+limphome_decision_t convert_decision(const lh_controller *c, const lh_decision *d,
+                                     const limphome_robot_state_t *state) {
+    const lh_observed *seen = &d->observed;
     limphome_decision_t message = {
         .utime = state->utime,
         .session = state->session,
         .seq = state->seq,
-        .episode = d->episode,
-        .step = d->step,
-        .num_inputs = d->num_inputs,
+        .episode = seen->episode,
+        .step = seen->step,
+        .num_inputs = seen->num_inputs,
         .action = d->choice.action,
         .q = d->choice.q,
         .q_max = d->choice.q_max,
         .probability = d->choice.probability,
-        .temperature = d->temperature,
-        .learned = d->learned,
-        .td_error = d->td_error,
-        .reward_motion = d->reward.motion,
-        .reward_goal = d->reward.goal,
-        .reward_stability = d->reward.stability,
-        .reward_tumble = d->reward.tumble,
-        .stability_margin = d->stability_margin,
-        .goal_distance = d->goal_distance,
-        .lateral_error = d->lateral_error,
+        .temperature = d->choice.temperature,
+        .learned = d->choice.learned,
+        .td_error = d->choice.td_error,
+        .reward_motion = seen->reward.motion,
+        .reward_goal = seen->reward.goal,
+        .reward_stability = seen->reward.stability,
+        .reward_tumble = seen->reward.tumble,
+        .stability_margin = seen->stability_margin,
+        .goal_distance = seen->goal_distance,
+        .lateral_error = seen->lateral_error,
     };
-    memcpy(message.inputs, d->inputs, sizeof d->inputs);
+    memcpy(message.inputs, seen->inputs, sizeof seen->inputs);
+    if (!seen->reset) {
+        lh_action_inputs(d->choice.action, c->task.controlled.count, message.inputs + seen->num_inputs);
+        message.num_inputs += c->task.controlled.count;
+    }
     return message;
 }
 
-limphome_episode_t convert_episode(const lh_summary *s, const limphome_robot_state_t *state, double decision_period) {
+static int8_t convert_outcome(lh_outcome outcome) {
+    switch (outcome) {
+        case LH_OUTCOME_GOAL:
+            return LIMPHOME_EPISODE_T_GOAL;
+        case LH_OUTCOME_TUMBLE:
+            return LIMPHOME_EPISODE_T_TUMBLE;
+        case LH_OUTCOME_TIMEOUT:
+            return LIMPHOME_EPISODE_T_TIMEOUT;
+        case LH_OUTCOME_NONE: /* an episode that goes on has no summary */
+            break;
+    }
+    return -1;
+}
+
+limphome_episode_t convert_episode(const lh_controller *c, const lh_summary *s, const limphome_robot_state_t *state,
+                                   double decision_period) {
     return (limphome_episode_t){
         .utime = state->utime,
         .session = state->session,
         .episode = s->number,
-        .outcome = (int8_t)s->outcome,
+        .outcome = convert_outcome(s->outcome),
         .steps = s->steps,
         .duration = s->steps * decision_period,
         .reward = (double)lh_reward_total(&s->total),
@@ -107,48 +148,68 @@ limphome_episode_t convert_episode(const lh_summary *s, const limphome_robot_sta
         .reward_tumble = (double)s->total.tumble,
         .lateral_error = (double)s->lateral_error,
         .heading_change = (double)s->heading_change,
-        .temperature = (double)s->temperature,
+        .temperature = (double)lh_learner_temperature(&c->learner, s->number),
         .start = {(double)s->start.x, (double)s->start.y},
         .start_heading = (double)s->start.heading,
         .goal_distance = (double)s->goal_distance,
     };
 }
 
-limphome_policy_t convert_policy(const lh_controller *c, int32_t episode, int64_t utime) {
-    limphome_policy_t policy;
-    memset(&policy, 0, sizeof policy);
-    policy.utime = utime;
-    policy.episode = episode;
-    policy.num_actuators = c->robot.num_actuators;
-    policy.num_controlled = c->controlled.count;
-    for (int32_t k = 0; k < c->controlled.count; k++) {
-        const lh_actuator *actuator = &c->robot.actuators[c->controlled.index[k]];
-        policy.controlled[k] = (int8_t)c->controlled.index[k];
-        policy.speed[k] = actuator->kind == LH_CRAWLER ? c->config.crawler_speed : c->config.joint_speed;
-        lh_observation_range(actuator, &policy.input_low[k], &policy.input_high[k]);
-    }
-    const lh_network *network = &c->learner.network;
-    policy.num_units = network->units;
-    policy.num_inputs = network->inputs;
-    for (int32_t j = 0; j < network->units; j++) {
-        policy.weight[j] = network->weight[j];
-        policy.width[j] = network->width[j];
-        for (int32_t i = 0; i < network->inputs; i++) {
-            policy.centre[j][i] = network->centre[i][j];
+void convert_limits(const lh_controller *c, limphome_status_t *status) {
+    status->clamped_inputs = (int64_t)c->task.clamped.inputs;
+    status->clamped_margins = (int64_t)c->task.clamped.margins;
+    switch (c->learner.kind) {
+        case LH_Q_LEARNING: {
+            const lh_q_learning *learner = &c->learner.as.q_learning;
+            status->clamped_temperatures = (int64_t)learner->floored;
+            status->clamped_weights = (int64_t)learner->held.weights;
+            status->clamped_widths = (int64_t)learner->held.widths;
+            status->clamped_centres = (int64_t)learner->held.centres;
+            break;
         }
     }
-    return policy;
+    status->clamped = status->clamped_inputs + status->clamped_temperatures + status->clamped_margins +
+                      status->clamped_weights + status->clamped_widths + status->clamped_centres;
 }
 
-bool convert_network(const limphome_policy_t *policy, const lh_controller *c, lh_network *network) {
-    const limphome_policy_t ours = convert_policy(c, 0, 0);
-    memset(network, 0, sizeof *network);
+/* For what the policy is: actuators, speeds of their levels, ranges of their state inputs. */
+static void fill_purpose(const lh_task *task, limphome_policy_t *policy) {
+    policy->num_actuators = task->robot.num_actuators;
+    policy->num_controlled = task->controlled.count;
+    for (int32_t k = 0; k < task->controlled.count; k++) {
+        const lh_actuator *actuator = &task->robot.actuators[task->controlled.index[k]];
+        policy->controlled[k] = (int8_t)task->controlled.index[k];
+        policy->speed[k] = actuator->kind == LH_CRAWLER ? task->config.crawler_speed : task->config.joint_speed;
+        lh_observation_range(actuator, &policy->input_low[k], &policy->input_high[k]);
+    }
+}
+
+static bool has_purpose(const limphome_policy_t *policy, const lh_task *task) {
+    limphome_policy_t ours;
+    memset(&ours, 0, sizeof ours);
+    fill_purpose(task, &ours);
     const size_t bytes = (size_t)ours.num_controlled * sizeof ours.speed[0];
-    if (policy->num_actuators != ours.num_actuators || policy->num_controlled != ours.num_controlled ||
-        memcmp(policy->controlled, ours.controlled, (size_t)ours.num_controlled) != 0 ||
-        memcmp(policy->speed, ours.speed, bytes) != 0 || memcmp(policy->input_low, ours.input_low, bytes) != 0 ||
-        memcmp(policy->input_high, ours.input_high, bytes) != 0 || policy->num_units > LH_MAX_UNITS ||
-        policy->num_inputs > LH_MAX_INPUTS) {
+    return policy->num_actuators == ours.num_actuators && policy->num_controlled == ours.num_controlled &&
+           memcmp(policy->controlled, ours.controlled, (size_t)ours.num_controlled) == 0 &&
+           memcmp(policy->speed, ours.speed, bytes) == 0 && memcmp(policy->input_low, ours.input_low, bytes) == 0 &&
+           memcmp(policy->input_high, ours.input_high, bytes) == 0;
+}
+
+static void fill_network(const lh_network *network, limphome_policy_t *policy) {
+    policy->num_units = network->units;
+    policy->num_inputs = network->inputs;
+    for (int32_t j = 0; j < network->units; j++) {
+        policy->weight[j] = network->weight[j];
+        policy->width[j] = network->width[j];
+        for (int32_t i = 0; i < network->inputs; i++) {
+            policy->centre[j][i] = network->centre[i][j];
+        }
+    }
+}
+
+static bool read_network(const limphome_policy_t *policy, lh_network *network) {
+    memset(network, 0, sizeof *network);
+    if (policy->num_units > LH_MAX_UNITS || policy->num_inputs > LH_MAX_INPUTS) {
         return false;
     }
     network->units = policy->num_units;
@@ -161,4 +222,83 @@ bool convert_network(const limphome_policy_t *policy, const lh_controller *c, lh
         }
     }
     return true;
+}
+
+limphome_policy_t convert_policy(const lh_controller *c, int32_t episode, int64_t utime) {
+    limphome_policy_t policy;
+    memset(&policy, 0, sizeof policy);
+    policy.utime = utime;
+    policy.episode = episode;
+    fill_purpose(&c->task, &policy);
+    lh_learned learned;
+    lh_learner_save(&c->learner, &learned);
+    switch (learned.kind) {
+        case LH_Q_LEARNING:
+            fill_network(&learned.as.q_learning.network, &policy);
+            break;
+    }
+    return policy;
+}
+
+bool convert_from_policy(const limphome_policy_t *policy, const lh_controller *c, lh_learned *learned) {
+    lh_learner_save(&c->learner, learned);
+    if (!has_purpose(policy, &c->task)) {
+        return false;
+    }
+    switch (learned->kind) {
+        case LH_Q_LEARNING:
+            return read_network(policy, &learned->as.q_learning.network);
+    }
+    return false;
+}
+
+/* What Q-learning has beside its network. */
+static limphome_q_learning_t save_q_learning(const lh_q_learned *learned) {
+    limphome_q_learning_t message = {
+        .clamped_temperatures = (int64_t)learned->floored,
+        .clamped_weights = (int64_t)learned->held.weights,
+        .clamped_widths = (int64_t)learned->held.widths,
+        .clamped_centres = (int64_t)learned->held.centres,
+    };
+    memcpy(message.random_state, learned->random.s, sizeof message.random_state);
+    return message;
+}
+
+static void restore_q_learning(const limphome_q_learning_t *message, lh_q_learned *learned) {
+    learned->floored = (uint64_t)message->clamped_temperatures;
+    learned->held.weights = (uint64_t)message->clamped_weights;
+    learned->held.widths = (uint64_t)message->clamped_widths;
+    learned->held.centres = (uint64_t)message->clamped_centres;
+    memcpy(learned->random.s, message->random_state, sizeof learned->random.s);
+}
+
+limphome_checkpoint_t convert_checkpoint(const lh_controller *c, int32_t episode, int64_t utime,
+                                         int64_t settings_hash) {
+    limphome_checkpoint_t checkpoint;
+    memset(&checkpoint, 0, sizeof checkpoint);
+    checkpoint.settings_hash = settings_hash;
+    checkpoint.episode = episode;
+    checkpoint.policy = convert_policy(c, episode, utime);
+    lh_learned learned;
+    lh_learner_save(&c->learner, &learned);
+    switch (learned.kind) {
+        case LH_Q_LEARNING:
+            checkpoint.learner = LIMPHOME_CHECKPOINT_T_Q_LEARNING;
+            checkpoint.q_learning = save_q_learning(&learned.as.q_learning);
+            break;
+    }
+    return checkpoint;
+}
+
+bool convert_from_checkpoint(const limphome_checkpoint_t *checkpoint, const lh_controller *c, lh_learned *learned) {
+    if (!convert_from_policy(&checkpoint->policy, c, learned)) {
+        return false;
+    }
+    switch (checkpoint->learner) {
+        case LIMPHOME_CHECKPOINT_T_Q_LEARNING:
+            restore_q_learning(&checkpoint->q_learning, &learned->as.q_learning);
+            return learned->kind == LH_Q_LEARNING;
+        default:
+            return false;
+    }
 }

@@ -10,6 +10,7 @@
 #include "limphome_episode_t.h"
 #include "limphome_policy_t.h"
 #include "limphome_robot_state_t.h"
+#include "limphome_status_t.h"
 #include "settings.h"
 
 /* The library's configuration for an experiment. */
@@ -21,16 +22,27 @@ lh_state convert_state(const limphome_robot_state_t *message);
 /* Actuators that obey, fully or weakly. */
 lh_controlled convert_controlled(const limphome_robot_state_t *message);
 
-/* Telemetry of one decision, taken on `state`. */
-limphome_decision_t convert_decision(const lh_decision *decision, const limphome_robot_state_t *state);
-limphome_episode_t convert_episode(const lh_summary *summary, const limphome_robot_state_t *state,
-                                   double decision_period);
+/* Telemetry of one decision, taken on `state`, and of an episode that it ended. */
+limphome_decision_t convert_decision(const lh_controller *controller, const lh_decision *decision,
+                                     const limphome_robot_state_t *state);
+limphome_episode_t convert_episode(const lh_controller *controller, const lh_summary *summary,
+                                   const limphome_robot_state_t *state, double decision_period);
 
-/* The network and what is needed to use it, after `episode` finished episodes. */
+/* Fills in how often each limit of the controller acted. */
+void convert_limits(const lh_controller *controller, limphome_status_t *status);
+
+/* What was learned and what is needed to use it, after `episode` finished episodes. */
 limphome_policy_t convert_policy(const lh_controller *controller, int32_t episode, int64_t utime);
 
-/* The network of a policy. False if the policy is for other actuators, speeds or input ranges than the controller's,
- * or has another number of units: it would not mean the same. */
-bool convert_network(const limphome_policy_t *policy, const lh_controller *controller, lh_network *network);
+/* The same and what is needed to go on learning. */
+limphome_checkpoint_t convert_checkpoint(const lh_controller *controller, int32_t episode, int64_t utime,
+                                         int64_t settings_hash);
+
+/* What lh_controller_restore takes, from a policy (the rest as the controller has it) or from a checkpoint. False if it
+ * is for other actuators, speeds or input ranges than the controller's, or for another learner: it would not mean the
+ * same. */
+bool convert_from_policy(const limphome_policy_t *policy, const lh_controller *controller, lh_learned *learned);
+bool convert_from_checkpoint(const limphome_checkpoint_t *checkpoint, const lh_controller *controller,
+                             lh_learned *learned);
 
 #endif

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "command_line.h"
-#include "experiment.h"
+#include "run.h"
 
 static volatile sig_atomic_t stop;
 
@@ -23,17 +23,19 @@ int main(int argc, char **argv) {
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
 
-    static experiment e; /* too large for a comfortable stack frame */
-    if (!experiment_open(&e, &line)) {
+    static run r; /* too large for a comfortable stack frame */
+    if (!run_open(&r, &line)) {
+        fprintf(stderr, "%s\n", r.error);
         return BAD_INPUT;
     }
-    const bool complete = experiment_run(&e, &stop);
-    if (!experiment_close(&e, complete)) {
+    const bool complete = run_decide(&r, &stop);
+    if (!run_close(&r, complete)) {
+        fprintf(stderr, "%s\n", r.error);
         return WENT_WRONG;
     }
-    if (!complete && stop != 0) {
-        fprintf(stderr, "stopped after episode %d\n", e.finished);
+    if (!complete) {
+        fprintf(stderr, "stopped after episode %d\n", r.finished);
         return STOPPED;
     }
-    return complete ? DONE : WENT_WRONG;
+    return DONE;
 }

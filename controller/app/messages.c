@@ -71,7 +71,9 @@ message_verdict message_decode_checkpoint(const void *data, size_t size, limphom
     if (size > INT_MAX || limphome_checkpoint_t_decode(data, 0, (int)size, checkpoint) != (int)size) {
         return MESSAGE_MALFORMED;
     }
-    return check_policy(&checkpoint->policy);
+    const bool sound =
+        checkpoint->learner == LIMPHOME_CHECKPOINT_T_Q_LEARNING && checkpoint->episode == checkpoint->policy.episode;
+    return sound ? check_policy(&checkpoint->policy) : MESSAGE_MALFORMED;
 }
 
 const char *message_verdict_text(message_verdict verdict) {

@@ -14,76 +14,82 @@ static const char csv_header[] =
     "episode,outcome,steps,duration_s,reward,reward_motion,reward_goal,reward_stability,reward_tumble,lateral_error_m,"
     "heading_change_rad,temperature\n";
 
-/* Says why `path` failed; always false. */
-static bool complain(const char *path, const char *what) {
-    fprintf(stderr, "%s: %s\n", path, what);
-    return false;
+/* What a call of the system has left in errno. */
+static bool fail_by_system(char error[ERROR_LENGTH], const char *path) {
+    return fail_with(error, "%s: %s", path, strerror(errno));
 }
 
-static bool join(char path[RUN_FOLDER_PATH_LENGTH], const char *folder, const char *name) {
+static bool join(char path[RUN_FOLDER_PATH_LENGTH], const char *folder, const char *name, char error[ERROR_LENGTH]) {
     const int length = snprintf(path, RUN_FOLDER_PATH_LENGTH, "%s/%s", folder, name);
-    return length < RUN_FOLDER_PATH_LENGTH || complain(folder, "the path is too long");
+    return length < RUN_FOLDER_PATH_LENGTH || fail_with(error, "%s: the path is too long", folder);
 }
 
-static bool make_folder(const char *path) {
-    return mkdir(path, 0777) == 0 || errno == EEXIST || complain(path, strerror(errno));
+static bool make_folder(const char *path, char error[ERROR_LENGTH]) {
+    return mkdir(path, 0777) == 0 || errno == EEXIST || fail_by_system(error, path);
 }
 
 /* Writes beside the file and then renames, so that a reader or a crash never meets half of it. */
-static bool replace_file(const char *path, const void *data, size_t size) {
+static bool replace_file(const char *path, const void *data, size_t size, char error[ERROR_LENGTH]) {
     char fresh[RUN_FOLDER_PATH_LENGTH + 8];
     snprintf(fresh, sizeof fresh, "%s.new", path);
     FILE *file = fopen(fresh, "wb");
     if (file == NULL) {
-        return complain(fresh, strerror(errno));
+        return fail_by_system(error, fresh);
     }
     bool good = fwrite(data, 1, size, file) == size && fflush(file) == 0 && fsync(fileno(file)) == 0;
     good = fclose(file) == 0 && good;
     good = good && rename(fresh, path) == 0;
-    return good || complain(path, strerror(errno));
+    return good || fail_by_system(error, path);
 }
 
 /* Reads a whole small file; its length, or -1. */
-static long read_file(const char *path, unsigned char bytes[LARGEST_FILE]) {
+static long read_file(const char *path, unsigned char bytes[LARGEST_FILE], char error[ERROR_LENGTH]) {
     FILE *file = fopen(path, "rb");
     if (file == NULL) {
-        complain(path, strerror(errno));
+        fail_by_system(error, path);
         return -1;
     }
     const size_t size = fread(bytes, 1, LARGEST_FILE, file);
     const bool good = !ferror(file);
     fclose(file);
     if (!good) {
-        complain(path, "cannot be read");
+        fail_with(error, "%s: cannot be read", path);
         return -1;
     }
     return (long)size;
 }
 
-bool run_folder_create(run_folder *folder, const char *path) {
+bool run_folder_create(run_folder *folder, const char *path, char error[ERROR_LENGTH]) {
     memset(folder, 0, sizeof *folder);
     if (path == NULL) {
         return true;
     }
     char name[RUN_FOLDER_PATH_LENGTH];
     snprintf(folder->path, sizeof folder->path, "%s", path);
-    if (!join(name, path, "checkpoint") || !make_folder(path) || !make_folder(name) ||
-        !join(name, path, "episodes.csv")) {
+    if (!join(name, path, "checkpoint", error) || !make_folder(path, error) || !make_folder(name, error) ||
+        !join(name, path, "episodes.csv", error)) {
         return false;
     }
     folder->episodes = fopen(name, "wx");
     if (folder->episodes == NULL) {
-        return complain(name, errno == EEXIST ? "there is a run in this folder already; --resume goes on with it"
-                                              : strerror(errno));
+        return errno == EEXIST
+                   ? fail_with(error, "%s: there is a run in this folder already; --resume goes on with it", name)
+                   : fail_by_system(error, name);
     }
-    return fputs(csv_header, folder->episodes) >= 0 && fflush(folder->episodes) == 0;
+    if (fputs(csv_header, folder->episodes) < 0 || fflush(folder->episodes) != 0) {
+        fail_by_system(error, name);
+        fclose(folder->episodes);
+        folder->episodes = NULL;
+        return false;
+    }
+    return true;
 }
 
 /* Number of the newest checkpoint/episode_NNNNNN.lcm, or -1. */
-static long newest_checkpoint(const char *folder) {
+static long newest_checkpoint(const char *folder, char error[ERROR_LENGTH]) {
     DIR *entries = opendir(folder);
     if (entries == NULL) {
-        complain(folder, strerror(errno));
+        fail_by_system(error, folder);
         return -1;
     }
     long newest = -1;
@@ -97,23 +103,23 @@ static long newest_checkpoint(const char *folder) {
     }
     closedir(entries);
     if (newest < 0) {
-        complain(folder, "holds no checkpoint to go on from");
+        fail_with(error, "%s: holds no checkpoint to go on from", folder);
     }
     return newest;
 }
 
 /* Copies header and rows of episodes 1 to `episodes` into a new file that replaces the old one. */
-static bool cut_episodes(const char *path, int32_t episodes) {
+static bool cut_episodes(const char *path, int32_t episodes, char error[ERROR_LENGTH]) {
     char fresh[RUN_FOLDER_PATH_LENGTH + 8];
     snprintf(fresh, sizeof fresh, "%s.new", path);
     FILE *old = fopen(path, "r");
     if (old == NULL) {
-        return complain(path, strerror(errno));
+        return fail_by_system(error, path);
     }
     FILE *cut = fopen(fresh, "w");
     if (cut == NULL) {
         fclose(old);
-        return complain(fresh, strerror(errno));
+        return fail_by_system(error, fresh);
     }
     char line[LINE_LENGTH];
     int32_t rows = -1;
@@ -124,95 +130,105 @@ static bool cut_episodes(const char *path, int32_t episodes) {
     }
     fclose(old);
     good = fclose(cut) == 0 && good && rows == episodes;
-    return good ? rename(fresh, path) == 0 || complain(path, strerror(errno))
-                : complain(path, "does not hold the rows of all episodes up to the checkpoint");
+    return good ? rename(fresh, path) == 0 || fail_by_system(error, path)
+                : fail_with(error, "%s: does not hold the rows of all episodes up to the checkpoint", path);
 }
 
-bool run_folder_resume(run_folder *folder, const char *path, limphome_checkpoint_t *checkpoint) {
-    memset(folder, 0, sizeof *folder);
-    snprintf(folder->path, sizeof folder->path, "%s", path);
+/* Reads and checks checkpoint/episode_NNNNNN.lcm of that number. */
+static bool read_checkpoint(const char *folder, long number, limphome_checkpoint_t *checkpoint,
+                            char error[ERROR_LENGTH]) {
     char name[RUN_FOLDER_PATH_LENGTH];
     char base[48];
-    long number = -1;
-    if (!join(name, path, "checkpoint") || (number = newest_checkpoint(name)) < 0) {
-        return false;
-    }
-    snprintf(base, sizeof base, "checkpoint/episode_%06ld.lcm", number);
     unsigned char bytes[LARGEST_FILE];
-    const long size = join(name, path, base) ? read_file(name, bytes) : -1;
+    snprintf(base, sizeof base, "checkpoint/episode_%06ld.lcm", number);
+    const long size = join(name, folder, base, error) ? read_file(name, bytes, error) : -1;
     if (size < 0) {
         return false;
     }
     const message_verdict verdict = message_decode_checkpoint(bytes, (size_t)size, checkpoint);
-    if (verdict != MESSAGE_GOOD || checkpoint->policy.episode != number) {
-        return complain(name, verdict != MESSAGE_GOOD ? message_verdict_text(verdict) : "is of another episode");
+    if (verdict != MESSAGE_GOOD) {
+        return fail_with(error, "%s: %s", name, message_verdict_text(verdict));
     }
-    if (!join(name, path, "episodes.csv") || !cut_episodes(name, checkpoint->policy.episode)) {
+    return checkpoint->episode == number || fail_with(error, "%s: is of another episode", name);
+}
+
+bool run_folder_resume(run_folder *folder, const char *path, limphome_checkpoint_t *checkpoint,
+                       char error[ERROR_LENGTH]) {
+    memset(folder, 0, sizeof *folder);
+    snprintf(folder->path, sizeof folder->path, "%s", path);
+    char name[RUN_FOLDER_PATH_LENGTH];
+    long number = -1;
+    if (!join(name, path, "checkpoint", error) || (number = newest_checkpoint(name, error)) < 0 ||
+        !read_checkpoint(path, number, checkpoint, error) || !join(name, path, "episodes.csv", error) ||
+        !cut_episodes(name, checkpoint->episode, error)) {
         return false;
     }
     folder->episodes = fopen(name, "a");
-    return folder->episodes != NULL || complain(name, strerror(errno));
+    return folder->episodes != NULL || fail_by_system(error, name);
 }
 
-const char *run_folder_outcome(lh_outcome outcome) {
+static const char *outcome_word(int8_t outcome) {
     switch (outcome) {
-        case LH_OUTCOME_GOAL:
+        case LIMPHOME_EPISODE_T_GOAL:
             return "goal";
-        case LH_OUTCOME_TUMBLE:
+        case LIMPHOME_EPISODE_T_TUMBLE:
             return "tumble";
-        case LH_OUTCOME_TIMEOUT:
+        case LIMPHOME_EPISODE_T_TIMEOUT:
             return "timeout";
-        case LH_OUTCOME_NONE:
-        default:
+        default: /* of a number from outside */
             return "none";
     }
 }
 
-bool run_folder_episode(run_folder *folder, const lh_summary *s, double decision_period) {
+bool run_folder_episode(run_folder *folder, const limphome_episode_t *e, char error[ERROR_LENGTH]) {
     if (folder->episodes == NULL) {
         return true;
     }
-    fprintf(folder->episodes, "%d,%s,%d,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", s->number,
-            run_folder_outcome(s->outcome), s->steps, s->steps * decision_period, (double)lh_reward_total(&s->total),
-            (double)s->total.motion, (double)s->total.goal, (double)s->total.stability, (double)s->total.tumble,
-            (double)s->lateral_error, (double)s->heading_change, (double)s->temperature);
-    return fflush(folder->episodes) == 0 || complain("episodes.csv", strerror(errno));
+    fprintf(folder->episodes, "%d,%s,%d,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", e->episode,
+            outcome_word(e->outcome), e->steps, e->duration, e->reward, e->reward_motion, e->reward_goal,
+            e->reward_stability, e->reward_tumble, e->lateral_error, e->heading_change, e->temperature);
+    return fflush(folder->episodes) == 0 || fail_by_system(error, "episodes.csv");
 }
 
-bool run_folder_policy(const run_folder *folder, const limphome_policy_t *policy) {
+bool run_folder_policy(const run_folder *folder, const limphome_policy_t *policy, char error[ERROR_LENGTH]) {
     char path[RUN_FOLDER_PATH_LENGTH];
     unsigned char bytes[LARGEST_FILE];
     if (folder->path[0] == '\0') {
         return true;
     }
     const int size = limphome_policy_t_encode(bytes, 0, sizeof bytes, policy);
-    return size > 0 && join(path, folder->path, "policy.lcm") && replace_file(path, bytes, (size_t)size);
+    return join(path, folder->path, "policy.lcm", error) &&
+           (size > 0 || fail_with(error, "%s: does not fit %d bytes", path, LARGEST_FILE)) &&
+           replace_file(path, bytes, (size_t)size, error);
 }
 
-bool run_folder_checkpoint(const run_folder *folder, const limphome_checkpoint_t *checkpoint) {
+bool run_folder_checkpoint(const run_folder *folder, const limphome_checkpoint_t *checkpoint,
+                           char error[ERROR_LENGTH]) {
     char path[RUN_FOLDER_PATH_LENGTH];
     char base[40];
     unsigned char bytes[LARGEST_FILE];
     if (folder->path[0] == '\0') {
         return true;
     }
-    snprintf(base, sizeof base, "checkpoint/episode_%06d.lcm", checkpoint->policy.episode);
+    snprintf(base, sizeof base, "checkpoint/episode_%06d.lcm", checkpoint->episode);
     const int size = limphome_checkpoint_t_encode(bytes, 0, sizeof bytes, checkpoint);
-    return size > 0 && join(path, folder->path, base) && replace_file(path, bytes, (size_t)size);
+    return join(path, folder->path, base, error) &&
+           (size > 0 || fail_with(error, "%s: does not fit %d bytes", path, LARGEST_FILE)) &&
+           replace_file(path, bytes, (size_t)size, error);
 }
 
-bool run_folder_close(run_folder *folder) {
+bool run_folder_close(run_folder *folder, char error[ERROR_LENGTH]) {
     const bool good = folder->episodes == NULL || fclose(folder->episodes) == 0;
     folder->episodes = NULL;
-    return good || complain("episodes.csv", strerror(errno));
+    return good || fail_by_system(error, "episodes.csv");
 }
 
-bool run_folder_read_policy(const char *path, limphome_policy_t *policy) {
+bool run_folder_read_policy(const char *path, limphome_policy_t *policy, char error[ERROR_LENGTH]) {
     unsigned char bytes[LARGEST_FILE];
-    const long size = read_file(path, bytes);
+    const long size = read_file(path, bytes, error);
     if (size < 0) {
         return false;
     }
     const message_verdict verdict = message_decode_policy(bytes, (size_t)size, policy);
-    return verdict == MESSAGE_GOOD || complain(path, message_verdict_text(verdict));
+    return verdict == MESSAGE_GOOD || fail_with(error, "%s: %s", path, message_verdict_text(verdict));
 }

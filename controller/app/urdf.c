@@ -146,17 +146,15 @@ static void build(struct urdf_reading *r, urdf_robot *out) {
     }
 }
 
-int urdf_read(urdf_robot *robot, const char *path, char error[URDF_ERROR_LENGTH]) {
+bool urdf_read(urdf_robot *robot, const char *path, char error[ERROR_LENGTH]) {
     FILE *file = fopen(path, "rb");
     if (file == NULL) {
-        snprintf(error, URDF_ERROR_LENGTH, "%.200s: cannot be opened: %s", path, strerror(errno));
-        return -1;
+        return fail_with(error, "%.200s: cannot be opened: %s", path, strerror(errno));
     }
     struct urdf_reading reading = {.path = path, .error = error, .parser = XML_ParserCreate(NULL)};
     if (reading.parser == NULL) {
-        snprintf(error, URDF_ERROR_LENGTH, "%.200s: out of memory", path);
         fclose(file);
-        return -1;
+        return fail_with(error, "%.200s: out of memory", path);
     }
     urdf_read_elements(&reading, file);
 
@@ -168,9 +166,8 @@ int urdf_read(urdf_robot *robot, const char *path, char error[URDF_ERROR_LENGTH]
         build(&reading, &read);
     }
     XML_ParserFree(reading.parser);
-    if (reading.failed) {
-        return -1;
+    if (!reading.failed) {
+        *robot = read;
     }
-    *robot = read;
-    return 0;
+    return !reading.failed;
 }

@@ -2,11 +2,13 @@
 #ifndef LIMPHOME_APP_URDF_H
 #define LIMPHOME_APP_URDF_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
+#include "fail.h"
 #include "limphome/body/robot.h"
 
-enum { URDF_NAME_LENGTH = 48, URDF_ERROR_LENGTH = 512 };
+enum { URDF_NAME_LENGTH = 48 };
 
 /* The robot and what only the process around the library needs to know of it. */
 typedef struct urdf_robot {
@@ -16,7 +18,7 @@ typedef struct urdf_robot {
 } urdf_robot;
 
 /* Reads links, joints and the <limphome> element: crawlers (left, right), arm joints from root to tip, supports and
- * tip. 0 on success; else -1, nothing changed, and a text with file, line and element in `error`. */
-int urdf_read(urdf_robot *robot, const char *path, char error[URDF_ERROR_LENGTH]);
+ * tip. False, nothing changed, and a text with file, line and element in `error`, if it cannot. */
+bool urdf_read(urdf_robot *robot, const char *path, char error[ERROR_LENGTH]);
 
 #endif

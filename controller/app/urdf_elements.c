@@ -10,12 +10,12 @@ void urdf_fail(struct urdf_reading *r, const char *format, ...) {
         return;
     }
     r->failed = true;
-    const int used =
-        snprintf(r->error, URDF_ERROR_LENGTH, "%.200s:%lu: ", r->path, XML_GetCurrentLineNumber(r->parser));
+    char reason[ERROR_LENGTH];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(r->error + used, (size_t)(URDF_ERROR_LENGTH - used), format, arguments);
+    vsnprintf(reason, sizeof reason, format, arguments);
     va_end(arguments);
+    fail_with(r->error, "%.200s:%lu: %s", r->path, XML_GetCurrentLineNumber(r->parser), reason);
 }
 
 static const char *attribute(const char **attributes, const char *name) {

@@ -9,8 +9,8 @@ static lh_controller controller; /* too large for a comfortable stack frame */
 
 static void make_controller(void) {
     urdf_robot robot;
-    char error[URDF_ERROR_LENGTH] = "";
-    ck_assert_msg(urdf_read(&robot, CONFIG_DIR "/crawler.urdf", error) == 0, "%s", error);
+    char error[ERROR_LENGTH] = "";
+    ck_assert_msg(urdf_read(&robot, CONFIG_DIR "/crawler.urdf", error), "%s", error);
     const settings s = settings_default();
     const lh_config config = convert_config(&s);
     const lh_controlled controlled = {.count = 4, .index = {1, 2, 3, 4}};
@@ -21,23 +21,24 @@ START_TEST(default_settings_are_the_librarys_defaults) {
     const settings s = settings_default();
     const lh_config config = convert_config(&s);
     const lh_config standard = lh_config_default();
-    ck_assert_float_eq(config.reward.forward, standard.reward.forward);
-    ck_assert_float_eq(config.reward.sideways, standard.reward.sideways);
-    ck_assert_float_eq(config.reward.turn, standard.reward.turn);
-    ck_assert_float_eq(config.reward.goal, standard.reward.goal);
-    ck_assert_float_eq(config.reward.stability, standard.reward.stability);
-    ck_assert_float_eq(config.reward.tumble, standard.reward.tumble);
-    ck_assert_int_eq(config.reward.heading_error, standard.reward.heading_error);
-    ck_assert_float_eq(config.episode.goal_distance, standard.episode.goal_distance);
-    ck_assert_float_eq(config.episode.tumble_tilt, standard.episode.tumble_tilt);
-    ck_assert_int_eq(config.episode.step_limit, standard.episode.step_limit);
-    ck_assert_int_eq(config.episode.reset_every, standard.episode.reset_every);
-    ck_assert_float_eq(config.learner.learning_rate, standard.learner.learning_rate);
-    ck_assert_float_eq(config.learner.discount_rate, standard.learner.discount_rate);
-    ck_assert_float_eq(config.learner.network.width_floor, standard.learner.network.width_floor);
-    ck_assert_float_eq(config.learner.network.weight_limit, standard.learner.network.weight_limit);
-    ck_assert_float_eq(config.learner.network.rate_centre, standard.learner.network.rate_centre);
-    ck_assert_int_eq(config.learner.network.units, standard.learner.network.units);
+    ck_assert_float_eq(config.task.reward.forward, standard.task.reward.forward);
+    ck_assert_float_eq(config.task.reward.sideways, standard.task.reward.sideways);
+    ck_assert_float_eq(config.task.reward.turn, standard.task.reward.turn);
+    ck_assert_float_eq(config.task.reward.goal, standard.task.reward.goal);
+    ck_assert_float_eq(config.task.reward.stability, standard.task.reward.stability);
+    ck_assert_float_eq(config.task.reward.tumble, standard.task.reward.tumble);
+    ck_assert_int_eq(config.task.reward.heading_error, standard.task.reward.heading_error);
+    ck_assert_float_eq(config.task.episode.goal_distance, standard.task.episode.goal_distance);
+    ck_assert_float_eq(config.task.episode.tumble_tilt, standard.task.episode.tumble_tilt);
+    ck_assert_int_eq(config.task.episode.step_limit, standard.task.episode.step_limit);
+    ck_assert_int_eq(config.task.episode.reset_every, standard.task.episode.reset_every);
+    ck_assert_float_eq(config.learner.q_learning.learning_rate, standard.learner.q_learning.learning_rate);
+    ck_assert_float_eq(config.learner.q_learning.discount_rate, standard.learner.q_learning.discount_rate);
+    ck_assert_float_eq(config.learner.q_learning.network.width_floor, standard.learner.q_learning.network.width_floor);
+    ck_assert_float_eq(config.learner.q_learning.network.weight_limit,
+                       standard.learner.q_learning.network.weight_limit);
+    ck_assert_float_eq(config.learner.q_learning.network.rate_centre, standard.learner.q_learning.network.rate_centre);
+    ck_assert_int_eq(config.learner.q_learning.network.units, standard.learner.q_learning.network.units);
     ck_assert_int_eq(lh_config_validate(&config), LH_OK);
 }
 END_TEST
@@ -50,24 +51,93 @@ START_TEST(a_policy_gives_back_the_network) {
     ck_assert_int_eq(policy.controlled[0], 1);
     ck_assert_float_eq(policy.input_low[0], -1000);
     ck_assert_float_eq(policy.input_high[2], 1.2F);
-    lh_network network;
-    ck_assert(convert_network(&policy, &controller, &network));
-    ck_assert_mem_eq(&network, &controller.learner.network, sizeof network);
+    lh_learned learned;
+    lh_learned held;
+    lh_learner_save(&controller.learner, &held);
+    controller.learner.as.q_learning.network.weight[0] = 5;
+    ck_assert(convert_from_policy(&policy, &controller, &learned));
+    ck_assert_mem_eq(&learned.as, &held.as, sizeof learned.as);
+}
+END_TEST
+
+START_TEST(a_checkpoint_gives_back_all_that_was_learned) {
+    make_controller();
+    lh_q_learning *learner = &controller.learner.as.q_learning;
+    learner->held = (lh_held){1, 2, 3};
+    learner->floored = 4;
+    lh_learned held;
+    lh_learner_save(&controller.learner, &held);
+    const limphome_checkpoint_t checkpoint = convert_checkpoint(&controller, 7, 0, 99);
+    ck_assert_int_eq(checkpoint.episode, 7);
+    ck_assert_int_eq(checkpoint.settings_hash, 99);
+    make_controller();
+    learner->random.s[2] ^= 1;
+    lh_learned learned;
+    ck_assert(convert_from_checkpoint(&checkpoint, &controller, &learned));
+    ck_assert_mem_eq(&learned.as, &held.as, sizeof learned.as);
+}
+END_TEST
+
+START_TEST(a_checkpoint_of_another_learner_is_refused) {
+    make_controller();
+    limphome_checkpoint_t checkpoint = convert_checkpoint(&controller, 7, 0, 99);
+    checkpoint.learner = 7;
+    lh_learned learned;
+    ck_assert(!convert_from_checkpoint(&checkpoint, &controller, &learned));
 }
 END_TEST
 
 START_TEST(a_policy_of_another_robot_is_refused) {
     make_controller();
-    lh_network network;
+    lh_learned learned;
     limphome_policy_t policy = convert_policy(&controller, 7, 0);
     policy.controlled[0] = 0;
-    ck_assert(!convert_network(&policy, &controller, &network));
+    ck_assert(!convert_from_policy(&policy, &controller, &learned));
     policy = convert_policy(&controller, 7, 0);
     policy.speed[1] = 0.2F;
-    ck_assert(!convert_network(&policy, &controller, &network));
+    ck_assert(!convert_from_policy(&policy, &controller, &learned));
     policy = convert_policy(&controller, 7, 0);
     policy.input_high[3] = 1;
-    ck_assert(!convert_network(&policy, &controller, &network));
+    ck_assert(!convert_from_policy(&policy, &controller, &learned));
+}
+END_TEST
+
+START_TEST(each_limit_is_told) {
+    make_controller();
+    controller.task.clamped = (lh_clamped){.inputs = 1, .margins = 2};
+    controller.learner.as.q_learning.floored = 4;
+    controller.learner.as.q_learning.held = (lh_held){8, 16, 32};
+    limphome_status_t status;
+    memset(&status, 0, sizeof status);
+    convert_limits(&controller, &status);
+    ck_assert_int_eq(status.clamped_inputs, 1);
+    ck_assert_int_eq(status.clamped_margins, 2);
+    ck_assert_int_eq(status.clamped_temperatures, 4);
+    ck_assert_int_eq(status.clamped_weights, 8);
+    ck_assert_int_eq(status.clamped_widths, 16);
+    ck_assert_int_eq(status.clamped_centres, 32);
+    ck_assert_int_eq(status.clamped, 63);
+}
+END_TEST
+
+START_TEST(a_decision_tells_the_inputs_of_state_and_action) {
+    make_controller();
+    const limphome_robot_state_t state = {.num_actuators = 5, .orientation = {1}, .session = 3, .seq = 9};
+    const lh_state sensed = convert_state(&state);
+    lh_decision decision;
+    ck_assert_int_eq(lh_controller_step(&controller, &sensed, &decision), LH_OK);
+    limphome_decision_t message = convert_decision(&controller, &decision, &state);
+    ck_assert_int_eq(message.session, 3);
+    ck_assert_int_eq(message.seq, 9);
+    ck_assert_int_eq(message.num_inputs, 10);
+    int32_t action = 0;
+    for (int k = 3; k >= 0; k--) { /* digit k of the number in base 3 */
+        action = 3 * action + (int32_t)(2 * message.inputs[6 + k]);
+    }
+    ck_assert_int_eq(action, decision.choice.action);
+    decision.observed.reset = true; /* no action follows */
+    message = convert_decision(&controller, &decision, &state);
+    ck_assert_int_eq(message.num_inputs, 6);
 }
 END_TEST
 
@@ -108,7 +178,11 @@ int main(void) {
     TCase *cases = tcase_create("convert");
     tcase_add_test(cases, default_settings_are_the_librarys_defaults);
     tcase_add_test(cases, a_policy_gives_back_the_network);
+    tcase_add_test(cases, a_checkpoint_gives_back_all_that_was_learned);
+    tcase_add_test(cases, a_checkpoint_of_another_learner_is_refused);
     tcase_add_test(cases, a_policy_of_another_robot_is_refused);
+    tcase_add_test(cases, each_limit_is_told);
+    tcase_add_test(cases, a_decision_tells_the_inputs_of_state_and_action);
     tcase_add_test(cases, what_has_failed_is_not_controlled);
     tcase_add_test(cases, state_keeps_position_attitude_angles_and_torque);
     return run_suite("convert", cases);

@@ -9,8 +9,10 @@
 #include "suite.h"
 
 static char folder_name[64];
+static char error[ERROR_LENGTH]; /* of the newest failure */
 
 static void make_name(void) {
+    error[0] = '\0';
     snprintf(folder_name, sizeof folder_name, "/tmp/limphome_run_XXXXXX");
     ck_assert_ptr_nonnull(mkdtemp(folder_name));
 }
@@ -21,24 +23,26 @@ static void remove_folder(void) {
     ck_assert_int_eq(system(command), 0);
 }
 
-static lh_summary summary(int32_t number) {
-    return (lh_summary){.number = number,
-                        .outcome = LH_OUTCOME_GOAL,
-                        .steps = 10 * number,
-                        .total = {.motion = 1.5F},
-                        .temperature = 0.25F};
+static limphome_episode_t episode(int32_t number) {
+    return (limphome_episode_t){.episode = number,
+                                .outcome = LIMPHOME_EPISODE_T_GOAL,
+                                .steps = 10 * number,
+                                .duration = 5.0 * number,
+                                .reward = 1.5,
+                                .reward_motion = 1.5,
+                                .temperature = 0.25};
 }
 
-static limphome_checkpoint_t checkpoint(int32_t episode) {
+static limphome_checkpoint_t checkpoint(int32_t after) {
     limphome_checkpoint_t c;
     memset(&c, 0, sizeof c);
-    c.policy.episode = episode;
+    c.episode = c.policy.episode = after;
     c.policy.num_actuators = 5;
     c.policy.num_controlled = 4;
     c.policy.num_units = 50;
     c.policy.num_inputs = 10;
     c.policy.weight[3] = 0.5F;
-    c.random_state[1] = 99;
+    c.q_learning.random_state[1] = 99;
     return c;
 }
 
@@ -62,14 +66,14 @@ static int count_lines(const char *name) {
 /* Episodes 1 to `episodes`, with a checkpoint after each tenth. */
 static void write_run(int32_t episodes) {
     run_folder folder;
-    ck_assert(run_folder_create(&folder, folder_name));
+    ck_assert(run_folder_create(&folder, folder_name, error));
     for (int32_t i = 1; i <= episodes; i++) {
-        const lh_summary s = summary(i);
-        ck_assert(run_folder_episode(&folder, &s, 0.5));
+        const limphome_episode_t e = episode(i);
+        ck_assert(run_folder_episode(&folder, &e, error));
         const limphome_checkpoint_t c = checkpoint(i);
-        ck_assert(i % 10 != 0 || run_folder_checkpoint(&folder, &c));
+        ck_assert(i % 10 != 0 || run_folder_checkpoint(&folder, &c, error));
     }
-    ck_assert(run_folder_close(&folder));
+    ck_assert(run_folder_close(&folder, error));
 }
 
 START_TEST(a_row_holds_the_summary) {
@@ -88,7 +92,7 @@ END_TEST
 START_TEST(a_folder_with_a_run_is_refused) {
     write_run(1);
     run_folder folder;
-    ck_assert(!run_folder_create(&folder, folder_name));
+    ck_assert(!run_folder_create(&folder, folder_name, error));
     ck_assert_int_eq(count_lines("episodes.csv"), 2);
 }
 END_TEST
@@ -98,11 +102,11 @@ START_TEST(resume_takes_the_newest_checkpoint_and_cuts_the_rows) {
     run_folder folder;
     limphome_checkpoint_t c;
     const limphome_checkpoint_t expected = checkpoint(20);
-    ck_assert(run_folder_resume(&folder, folder_name, &c));
+    ck_assert(run_folder_resume(&folder, folder_name, &c, error));
     ck_assert_mem_eq(&c, &expected, sizeof c);
-    const lh_summary s = summary(21);
-    ck_assert(run_folder_episode(&folder, &s, 0.5));
-    ck_assert(run_folder_close(&folder));
+    const limphome_episode_t e = episode(21);
+    ck_assert(run_folder_episode(&folder, &e, error));
+    ck_assert(run_folder_close(&folder, error));
     ck_assert_int_eq(count_lines("episodes.csv"), 1 + 21);
 }
 END_TEST
@@ -114,12 +118,12 @@ START_TEST(resume_refuses_what_is_damaged) {
     char path[256];
     file_path(path, "checkpoint/episode_000020.lcm");
     ck_assert_int_eq(truncate(path, 100), 0);
-    ck_assert(!run_folder_resume(&folder, folder_name, &c));
+    ck_assert(!run_folder_resume(&folder, folder_name, &c, error));
     ck_assert_int_eq(count_lines("episodes.csv"), 1 + 27); /* nothing is lost */
     unlink(path);
     file_path(path, "episodes.csv");
     ck_assert_int_eq(truncate(path, 200), 0);
-    ck_assert(!run_folder_resume(&folder, folder_name, &c));
+    ck_assert(!run_folder_resume(&folder, folder_name, &c, error));
 }
 END_TEST
 
@@ -127,43 +131,43 @@ START_TEST(resume_without_checkpoint_is_refused) {
     write_run(5);
     run_folder folder;
     limphome_checkpoint_t c;
-    ck_assert(!run_folder_resume(&folder, folder_name, &c));
-    ck_assert(!run_folder_resume(&folder, "/nowhere", &c));
+    ck_assert(!run_folder_resume(&folder, folder_name, &c, error));
+    ck_assert(!run_folder_resume(&folder, "/nowhere", &c, error));
 }
 END_TEST
 
 START_TEST(a_policy_reads_back) {
     run_folder folder;
-    ck_assert(run_folder_create(&folder, folder_name));
+    ck_assert(run_folder_create(&folder, folder_name, error));
     const limphome_checkpoint_t c = checkpoint(10);
-    ck_assert(run_folder_policy(&folder, &c.policy));
-    ck_assert(run_folder_close(&folder));
+    ck_assert(run_folder_policy(&folder, &c.policy, error));
+    ck_assert(run_folder_close(&folder, error));
     char path[256];
     file_path(path, "policy.lcm");
     limphome_policy_t policy;
-    ck_assert(run_folder_read_policy(path, &policy));
+    ck_assert(run_folder_read_policy(path, &policy, error));
     ck_assert_mem_eq(&policy, &c.policy, sizeof policy);
     file_path(path, "episodes.csv");
-    ck_assert(!run_folder_read_policy(path, &policy));
-    ck_assert(!run_folder_read_policy("/nowhere", &policy));
+    ck_assert(!run_folder_read_policy(path, &policy, error));
+    ck_assert(!run_folder_read_policy("/nowhere", &policy, error));
 }
 END_TEST
 
 START_TEST(no_folder_writes_nothing) {
     run_folder folder;
-    const lh_summary s = summary(1);
+    const limphome_episode_t e = episode(1);
     const limphome_checkpoint_t c = checkpoint(1);
-    ck_assert(run_folder_create(&folder, NULL));
-    ck_assert(run_folder_episode(&folder, &s, 0.5));
-    ck_assert(run_folder_checkpoint(&folder, &c));
-    ck_assert(run_folder_policy(&folder, &c.policy));
-    ck_assert(run_folder_close(&folder));
+    ck_assert(run_folder_create(&folder, NULL, error));
+    ck_assert(run_folder_episode(&folder, &e, error));
+    ck_assert(run_folder_checkpoint(&folder, &c, error));
+    ck_assert(run_folder_policy(&folder, &c.policy, error));
+    ck_assert(run_folder_close(&folder, error));
 }
 END_TEST
 
 START_TEST(a_place_that_cannot_be_written_is_refused) {
     run_folder folder;
-    ck_assert(!run_folder_create(&folder, "/proc/nothing/here"));
+    ck_assert(!run_folder_create(&folder, "/proc/nothing/here", error));
 }
 END_TEST
 

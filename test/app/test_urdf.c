@@ -11,8 +11,8 @@
 enum { TEXT = 16384 };
 
 static void read_crawler(urdf_robot *robot) {
-    char error[URDF_ERROR_LENGTH] = "";
-    ck_assert_msg(urdf_read(robot, CONFIG_DIR "/crawler.urdf", error) == 0, "%s", error);
+    char error[ERROR_LENGTH] = "";
+    ck_assert_msg(urdf_read(robot, CONFIG_DIR "/crawler.urdf", error), "%s", error);
 }
 
 START_TEST(crawler_has_its_actuators) {
@@ -45,7 +45,7 @@ START_TEST(crawler_has_its_masses_and_supports) {
 END_TEST
 
 /* Writes the crawler's URDF with `from` replaced by `to`, reads it, and gives the result. */
-static int read_changed(const char *from, const char *to, char error[URDF_ERROR_LENGTH]) {
+static bool read_changed(const char *from, const char *to, char error[ERROR_LENGTH]) {
     static char text[TEXT], changed[TEXT];
     FILE *file = fopen(CONFIG_DIR "/crawler.urdf", "r");
     ck_assert_ptr_nonnull(file);
@@ -62,8 +62,8 @@ static int read_changed(const char *from, const char *to, char error[URDF_ERROR_
     urdf_robot robot, before;
     memset(&robot, 7, sizeof robot);
     before = robot;
-    const int result = urdf_read(&robot, name, error);
-    if (result != 0) {
+    const bool result = urdf_read(&robot, name, error);
+    if (!result) {
         ck_assert_mem_eq(&robot, &before, sizeof robot);
         ck_assert_ptr_nonnull(strstr(error, name));
     }
@@ -95,34 +95,35 @@ static const struct {
 };
 
 START_TEST(bad_robots_are_refused_with_the_element) {
-    char error[URDF_ERROR_LENGTH] = "";
-    ck_assert_int_eq(read_changed(refusals[_i].from, refusals[_i].to, error), -1);
+    char error[ERROR_LENGTH] = "";
+    ck_assert(!read_changed(refusals[_i].from, refusals[_i].to, error));
     ck_assert_msg(strstr(error, refusals[_i].word) != NULL, "error \"%s\" lacks \"%s\"", error, refusals[_i].word);
 }
 END_TEST
 
 START_TEST(no_extension_is_refused) {
-    char error[URDF_ERROR_LENGTH] = "";
+    char error[ERROR_LENGTH] = "";
     char name[] = "/tmp/limphome_urdf_XXXXXX";
     const int fd = mkstemp(name);
     dprintf(fd, "<robot name=\"r\"><link name=\"base\"/></robot>");
     close(fd);
     urdf_robot robot;
-    ck_assert_int_eq(urdf_read(&robot, name, error), -1);
+    ck_assert(!urdf_read(&robot, name, error));
     ck_assert_ptr_nonnull(strstr(error, "<limphome>: missing"));
     unlink(name);
-    ck_assert_int_eq(urdf_read(&robot, name, error), -1);
+    error[0] = '\0';
+    ck_assert(!urdf_read(&robot, name, error));
     ck_assert_ptr_nonnull(strstr(error, "cannot be opened"));
 }
 END_TEST
 
 /* Extensions of others, such as <transmission>, hold elements called joint and link: they are none of ours. */
 START_TEST(extensions_of_others_are_passed_over) {
-    char error[URDF_ERROR_LENGTH] = "";
+    char error[ERROR_LENGTH] = "";
     ck_assert_msg(read_changed("<limphome>",
                                "<transmission><joint name=\"x\"/><link/></transmission><gazebo><limphome/></gazebo>"
                                "<limphome>",
-                               error) == 0,
+                               error),
                   "%s", error);
 }
 END_TEST

@@ -16,12 +16,12 @@ static double now(void) {
 }
 
 static void pose(problem *p, int32_t num_controlled) {
-    lh_learner_config config = lh_learner_config_default();
+    lh_q_learning_config config = lh_q_learning_config_default();
     p->num_controlled = num_controlled;
     p->num_states = num_controlled + 2;
     config.network.units = UNITS;
     config.network.inputs = p->num_states + num_controlled;
-    if (lh_learner_init(&p->learner, &config, p->num_states, num_controlled, 1) != LH_OK) {
+    if (lh_q_learning_init(&p->learner, &config, p->num_states, num_controlled, 1) != LH_OK) {
         abort();
     }
     lh_random *random = &p->learner.random;

@@ -3,7 +3,7 @@
 #ifndef LIMPHOME_BENCH_DECISION_H
 #define LIMPHOME_BENCH_DECISION_H
 
-#include "limphome/learning/learner.h"
+#include "limphome/learning/q_learning.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -12,7 +12,7 @@ extern "C" {
 enum { UNITS = 50, SITUATIONS = 1024 };
 
 typedef struct problem {
-    lh_learner learner; /* as it begins */
+    lh_q_learning learner; /* as it begins */
     int32_t num_states;
     int32_t num_controlled;
     float states[SITUATIONS][LH_MAX_STATE_INPUTS]; /* state inputs of decision k are states[k % SITUATIONS] */

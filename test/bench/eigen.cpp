@@ -65,7 +65,7 @@ int32_t choose(float q_max) {
 }
 
 void learn(const VectorXf &x, float target) {
-    const lh_learner_config &config = given->learner.config;
+    const lh_q_learning_config &config = given->learner.config;
     const MatrixXf difference = (-centre).colwise() + x;
     const ArrayXf distance = difference.colwise().squaredNorm().transpose().array();
     const ArrayXf phi = (-distance / width.square()).exp();

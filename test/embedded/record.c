@@ -28,7 +28,7 @@ static void put(FILE *file, const void *data, size_t size) {
 
 static recording_header make_header(const char *run) {
     char path[4096];
-    char error[SETTINGS_ERROR_LENGTH > URDF_ERROR_LENGTH ? SETTINGS_ERROR_LENGTH : URDF_ERROR_LENGTH];
+    char error[ERROR_LENGTH] = "";
     settings s = settings_default();
     snprintf(path, sizeof path, "%s/config.ini", run);
     if (settings_read(&s, path, error) != 0) {
@@ -37,7 +37,7 @@ static recording_header make_header(const char *run) {
     }
     urdf_robot robot;
     snprintf(path, sizeof path, "%s/robot.urdf", run);
-    if (urdf_read(&robot, path, error) != 0) {
+    if (!urdf_read(&robot, path, error)) {
         fprintf(stderr, "%s\n", error);
         exit(1);
     }
@@ -46,7 +46,7 @@ static recording_header make_header(const char *run) {
     header.header_size = sizeof header;
     header.state_size = sizeof(lh_state);
     header.config = convert_config(&s);
-    header.config.learn = true;
+    header.config.learner.learn = true;
     header.robot = robot.robot;
     return header;
 }

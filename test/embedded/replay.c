@@ -3,37 +3,41 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "limphome/task/action.h"
 #include "platform.h"
 #include "recording.h"
 
-static recorded_decision record(const lh_decision *d) {
+static recorded_decision record(const lh_decision *d, int32_t num_controlled) {
     recorded_decision r = {
-        .episode = d->episode,
-        .step = d->step,
-        .learned = d->learned,
+        .episode = d->observed.episode,
+        .step = d->observed.step,
+        .learned = d->choice.learned,
         .action = d->choice.action,
         .q = d->choice.q,
         .q_max = d->choice.q_max,
         .probability = d->choice.probability,
-        .temperature = d->temperature,
-        .td_error = d->td_error,
-        .reward_motion = d->reward.motion,
-        .reward_goal = d->reward.goal,
-        .reward_stability = d->reward.stability,
-        .reward_tumble = d->reward.tumble,
-        .stability_margin = d->stability_margin,
-        .goal_distance = d->goal_distance,
-        .lateral_error = d->lateral_error,
+        .temperature = d->choice.temperature,
+        .td_error = d->choice.td_error,
+        .reward_motion = d->observed.reward.motion,
+        .reward_goal = d->observed.reward.goal,
+        .reward_stability = d->observed.reward.stability,
+        .reward_tumble = d->observed.reward.tumble,
+        .stability_margin = d->observed.stability_margin,
+        .goal_distance = d->observed.goal_distance,
+        .lateral_error = d->observed.lateral_error,
     };
-    memcpy(r.inputs, d->inputs, sizeof r.inputs);
+    memcpy(r.inputs, d->observed.inputs, sizeof d->observed.inputs);
+    if (!d->observed.reset) {
+        lh_action_inputs(d->choice.action, num_controlled, r.inputs + d->observed.num_inputs);
+    }
     return r;
 }
 
 /* All but the configuration, whose padding has no definite value, and the scratch, whose layout may differ. */
-static bool save_learner(const lh_learner *learner) {
-    const size_t begin = offsetof(lh_learner, num_states);
+static bool save_learner(const lh_q_learning *learner) {
+    const size_t begin = offsetof(lh_q_learning, num_states);
     const int file = platform_open("learner.bin", true);
-    return platform_write(file, (const char *)learner + begin, offsetof(lh_learner, scratch) - begin);
+    return platform_write(file, (const char *)learner + begin, offsetof(lh_q_learning, scratch) - begin);
 }
 
 int main(void) {
@@ -50,11 +54,11 @@ int main(void) {
             platform_say("a state is missing or not valid\n");
             return 1;
         }
-        const recorded_decision recorded = record(&decision);
+        const recorded_decision recorded = record(&decision, controller.task.controlled.count);
         if (!platform_write(decisions, &recorded, sizeof recorded)) {
             platform_say("cannot write\n");
             return 1;
         }
     }
-    return save_learner(&controller.learner) ? 0 : 1;
+    return save_learner(&controller.learner.as.q_learning) ? 0 : 1;
 }

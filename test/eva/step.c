@@ -7,35 +7,33 @@
 static lh_controller controller; /* also what EVA starts from: all 0 */
 
 static void restore(void) {
-    static lh_network network;
-    uint32_t random_state[4];
-    Frama_C_make_unknown((char *)&network, sizeof network);
-    Frama_C_make_unknown((char *)random_state, sizeof random_state);
-    lh_controller_restore(&controller, &network, random_state, Frama_C_interval(INT32_MIN, INT32_MAX));
+    static lh_learned learned;
+    Frama_C_make_unknown((char *)&learned, sizeof learned);
+    lh_controller_restore(&controller, &learned, Frama_C_interval(INT32_MIN, INT32_MAX));
 }
 
 static void step(void) {
     lh_state state;
     lh_decision decision;
     Frama_C_make_unknown((char *)&state, sizeof state);
-    if (lh_controller_step(&controller, &state, &decision) == LH_OK && !decision.reset) {
-        //@ assert 0 <= decision.choice.action < controller.learner.num_actions;
+    if (lh_controller_step(&controller, &state, &decision) == LH_OK && !decision.observed.reset) {
+        //@ assert 0 <= decision.choice.action < controller.learner.as.q_learning.num_actions;
     }
 }
 
 int main(void) {
     lh_config config = lh_config_default();
-    config.learn = Frama_C_interval(0, 1);
-    config.greedy = Frama_C_interval(0, 1);
-    config.reward.heading_error = Frama_C_interval(0, 1);
-    config.learner.network.exact_gradient = Frama_C_interval(0, 1);
+    config.learner.learn = Frama_C_interval(0, 1);
+    config.learner.greedy = Frama_C_interval(0, 1);
+    config.task.reward.heading_error = Frama_C_interval(0, 1);
+    config.learner.q_learning.network.exact_gradient = Frama_C_interval(0, 1);
     const lh_robot robot = crawler_robot();
     const lh_controlled controlled = crawler_controlled();
     if (lh_controller_init(&controller, &config, &robot, &controlled) != LH_OK) {
         return 1;
     }
     /* not unrolled, as it has no end; a bound for EVA to try, below the limit of steps */
-    //@ loop unroll 0; loop widen_hints controller.episode.steps, 199;
+    //@ loop unroll 0; loop widen_hints controller.task.episode.steps, 199;
     while (Frama_C_interval(0, 1)) {
         switch (Frama_C_interval(0, 2)) {
             case 0:

@@ -19,10 +19,10 @@ static void make_bool(bool *flag) {
 }
 
 static void make_bools(lh_config *config) {
-    make_bool(&config->learn);
-    make_bool(&config->greedy);
-    make_bool(&config->reward.heading_error);
-    make_bool(&config->learner.network.exact_gradient);
+    make_bool(&config->learner.learn);
+    make_bool(&config->learner.greedy);
+    make_bool(&config->task.reward.heading_error);
+    make_bool(&config->learner.q_learning.network.exact_gradient);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

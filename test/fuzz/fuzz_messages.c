@@ -20,16 +20,14 @@ static void start(void) {
     FUZZ_EXPECT(lh_controller_init(&controller, &config, &robot, &controlled) == LH_OK);
 }
 
-static void restore(const limphome_policy_t *policy, const int32_t random_state[4]) {
-    lh_network network;
-    uint32_t random[4];
-    memcpy(random, random_state, sizeof random);
-    if (convert_network(policy, &controller, &network)) {
-        lh_controller_restore(&controller, &network, random, policy->episode);
+/* Two steps of a controller that has gone on from `learned`, if that was good. */
+static void expect_sound_steps(const lh_learned *learned, bool good, int32_t episode) {
+    if (good) {
+        lh_controller_restore(&controller, learned, episode);
     }
-    const lh_state good = crawler_state(0.0f, 0.0f, 1.5f);
-    fuzz_step(&controller, &good);
-    fuzz_step(&controller, &good);
+    const lh_state state = crawler_state(0.0f, 0.0f, 1.5f);
+    fuzz_step(&controller, &state);
+    fuzz_step(&controller, &state);
 }
 
 static void decode_state(const uint8_t *bytes, size_t size) {
@@ -51,10 +49,10 @@ static void decode_state(const uint8_t *bytes, size_t size) {
 }
 
 static void decode_policy(const uint8_t *bytes, size_t size) {
-    static const int32_t random_state[4] = {1, 2, 3, 4};
     limphome_policy_t policy;
     if (message_decode_policy(bytes, size, &policy) == MESSAGE_GOOD) {
-        restore(&policy, random_state);
+        lh_learned learned;
+        expect_sound_steps(&learned, convert_from_policy(&policy, &controller, &learned), policy.episode);
         uint8_t again[LARGEST];
         FUZZ_EXPECT(limphome_policy_t_encode(again, 0, (int)size, &policy) == (int)size);
         FUZZ_EXPECT(memcmp(again, bytes, size) == 0);
@@ -64,7 +62,8 @@ static void decode_policy(const uint8_t *bytes, size_t size) {
 static void decode_checkpoint(const uint8_t *bytes, size_t size) {
     limphome_checkpoint_t checkpoint;
     if (message_decode_checkpoint(bytes, size, &checkpoint) == MESSAGE_GOOD) {
-        restore(&checkpoint.policy, checkpoint.random_state);
+        lh_learned learned;
+        expect_sound_steps(&learned, convert_from_checkpoint(&checkpoint, &controller, &learned), checkpoint.episode);
         uint8_t again[LARGEST];
         FUZZ_EXPECT(limphome_checkpoint_t_encode(again, 0, (int)size, &checkpoint) == (int)size);
         FUZZ_EXPECT(memcmp(again, bytes, size) == 0);
@@ -75,7 +74,7 @@ static void decode_checkpoint(const uint8_t *bytes, size_t size) {
 static size_t good_message(enum kind kind, uint8_t bytes[LARGEST]) {
     const limphome_robot_state_t state = {.num_actuators = 5, .orientation = {1}};
     const limphome_policy_t policy = convert_policy(&controller, 7, 0);
-    const limphome_checkpoint_t checkpoint = {.policy = policy, .random_state = {1, 2, 3, 4}};
+    const limphome_checkpoint_t checkpoint = convert_checkpoint(&controller, 7, 0, 99);
     int size = 0;
     switch (kind) {
         case STATE:

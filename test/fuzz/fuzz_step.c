@@ -4,14 +4,14 @@
 
 static lh_config varied(uint8_t choices) {
     lh_config config = lh_config_default();
-    config.learn = (choices & 1) == 0;
-    config.greedy = (choices & 2) != 0;
-    config.learner.network.exact_gradient = (choices & 4) != 0;
-    config.reward.heading_error = (choices & 8) != 0;
-    config.episode.step_limit = (choices & 16) != 0 ? 3 : 200;
-    config.episode.reset_every = (choices & 32) != 0 ? 1 : 50;
-    config.learner.network.initial_weight = (choices & 64) != 0 ? -1e4f : 0.0f;
-    config.learner.network.rate_width = (choices & 128) != 0 ? 10.0f : 0.01f;
+    config.learner.learn = (choices & 1) == 0;
+    config.learner.greedy = (choices & 2) != 0;
+    config.learner.q_learning.network.exact_gradient = (choices & 4) != 0;
+    config.task.reward.heading_error = (choices & 8) != 0;
+    config.task.episode.step_limit = (choices & 16) != 0 ? 3 : 200;
+    config.task.episode.reset_every = (choices & 32) != 0 ? 1 : 50;
+    config.learner.q_learning.network.initial_weight = (choices & 64) != 0 ? -1e4f : 0.0f;
+    config.learner.q_learning.network.rate_width = (choices & 128) != 0 ? 10.0f : 0.01f;
     return config;
 }
 

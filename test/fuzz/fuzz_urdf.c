@@ -15,8 +15,8 @@ static void step(const urdf_robot *read) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     urdf_robot robot;
-    char error[URDF_ERROR_LENGTH] = "";
-    if (urdf_read(&robot, fuzz_file(data, size), error) == 0) {
+    char error[ERROR_LENGTH] = "";
+    if (urdf_read(&robot, fuzz_file(data, size), error)) {
         FUZZ_EXPECT(lh_robot_validate(&robot.robot) == LH_OK);
         step(&robot);
     } else {

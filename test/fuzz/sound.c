@@ -21,38 +21,39 @@ static void expect_sound_summary(const lh_controller *controller, const lh_summa
     const float values[] = {summary->lateral_error, summary->heading_change, summary->start.x,
                             summary->start.y,       summary->start.heading,  summary->goal_distance};
     FUZZ_EXPECT(finite(values, 6) && finite_reward(&summary->total));
-    FUZZ_EXPECT(summary->steps >= 1 && summary->steps <= controller->config.episode.step_limit);
-    FUZZ_EXPECT(summary->outcome <= LH_OUTCOME_TIMEOUT);
-    FUZZ_EXPECT(summary->temperature >= controller->config.temperature_floor);
+    FUZZ_EXPECT(summary->steps >= 1 && summary->steps <= controller->task.config.episode.step_limit);
+    FUZZ_EXPECT(summary->outcome > LH_OUTCOME_NONE && summary->outcome <= LH_OUTCOME_TIMEOUT);
+    FUZZ_EXPECT(lh_learner_temperature(&controller->learner, summary->number) >=
+                controller->learner.as.q_learning.config.temperature_floor);
 }
 
 static void expect_sound_choice(const lh_controller *controller, const lh_decision *decision) {
     const lh_choice *choice = &decision->choice;
-    FUZZ_EXPECT(choice->action >= 0 && choice->action < controller->learner.num_actions);
+    FUZZ_EXPECT(choice->action >= 0 && choice->action < controller->learner.as.q_learning.num_actions);
     FUZZ_EXPECT(lh_finite(choice->q) && lh_finite(choice->q_max) && choice->q <= choice->q_max);
     FUZZ_EXPECT(choice->probability > 0.0f && choice->probability <= 1.0f);
-    FUZZ_EXPECT(decision->temperature >= controller->config.temperature_floor);
-    FUZZ_EXPECT(decision->num_inputs == controller->learner.network.inputs);
-    for (int32_t k = 0; k < controller->robot.num_actuators; k++) {
+    FUZZ_EXPECT(decision->choice.temperature >= controller->learner.as.q_learning.config.temperature_floor);
+    FUZZ_EXPECT(decision->observed.num_inputs == controller->learner.as.q_learning.num_states);
+    for (int32_t k = 0; k < controller->task.robot.num_actuators; k++) {
         FUZZ_EXPECT(lh_within(decision->velocity[k], -2.0f, 2.0f));
     }
 }
 
 static void expect_sound(const lh_controller *controller, const lh_decision *decision) {
-    FUZZ_EXPECT(finite_reward(&decision->reward) && lh_finite(decision->td_error));
-    FUZZ_EXPECT(lh_finite(decision->stability_margin) && lh_finite(decision->goal_distance));
-    FUZZ_EXPECT(lh_finite(decision->lateral_error));
-    for (int32_t i = 0; i < decision->num_inputs; i++) {
-        FUZZ_EXPECT(lh_within(decision->inputs[i], 0.0f, 1.0f));
+    FUZZ_EXPECT(finite_reward(&decision->observed.reward) && lh_finite(decision->choice.td_error));
+    FUZZ_EXPECT(lh_finite(decision->observed.stability_margin) && lh_finite(decision->observed.goal_distance));
+    FUZZ_EXPECT(lh_finite(decision->observed.lateral_error));
+    for (int32_t i = 0; i < decision->observed.num_inputs; i++) {
+        FUZZ_EXPECT(lh_within(decision->observed.inputs[i], 0.0f, 1.0f));
     }
-    if (decision->ended) {
-        expect_sound_summary(controller, &decision->summary);
+    if (decision->observed.outcome != LH_OUTCOME_NONE) {
+        expect_sound_summary(controller, &decision->observed.summary);
     }
-    if (!decision->reset) {
+    if (!decision->observed.reset) {
         expect_sound_choice(controller, decision);
     }
-    const lh_learner *learner = &controller->learner;
-    FUZZ_EXPECT(lh_network_validate(&learner->network, &controller->config.learner.network) == LH_OK);
+    const lh_q_learning *learner = &controller->learner.as.q_learning;
+    FUZZ_EXPECT(lh_network_validate(&learner->network, &learner->config.network) == LH_OK);
 }
 
 void fuzz_step(lh_controller *controller, const lh_state *state) {

@@ -56,9 +56,9 @@ int main(void) {
     const lh_robot robot = crawler_robot();
     const lh_controlled controlled = crawler_controlled();
     lh_config config = lh_config_default();
-    config.learner.network.initial_weight = 0.1f;
-    config.learner.network.exact_gradient = true;
-    config.episode.goal_distance = 0.5f;
+    config.learner.q_learning.network.initial_weight = 0.1f;
+    config.learner.q_learning.network.exact_gradient = true;
+    config.task.episode.goal_distance = 0.5f;
     if (lh_controller_init(&controller, &config, &robot, &controlled) != LH_OK) {
         return 1;
     }
@@ -71,17 +71,19 @@ int main(void) {
         if (lh_controller_step(&controller, &state, &decision) != LH_OK) {
             return 1;
         }
-        result = hash(result, &decision.choice, sizeof decision.choice);
-        result = hash(result, &decision.td_error, sizeof decision.td_error);
-        result = hash(result, &decision.stability_margin, sizeof decision.stability_margin);
-        if (decision.reset) {
+        const lh_choice *c = &decision.choice;
+        const float chosen[] = {c->td_error, c->q, c->q_max, c->probability, c->temperature};
+        result = hash(result, &c->action, sizeof c->action);
+        result = hash(result, chosen, sizeof chosen);
+        result = hash(result, &decision.observed.stability_margin, sizeof decision.observed.stability_margin);
+        if (decision.observed.reset) {
             state = crawler_state(0.0f, 0.0f, 0.0f);
         } else {
             move(&state, &robot, &decision, &random);
         }
     }
-    result = hash_network(result, &controller.learner.network);
-    result = hash(result, &controller.learner.random, sizeof controller.learner.random);
-    printf("%016" PRIx64 " after %" PRId32 " episodes\n", result, controller.episode.number);
+    result = hash_network(result, &controller.learner.as.q_learning.network);
+    result = hash(result, &controller.learner.as.q_learning.random, sizeof controller.learner.as.q_learning.random);
+    printf("%016" PRIx64 " after %" PRId32 " episodes\n", result, controller.task.episode.number);
     return 0;
 }

@@ -12,13 +12,15 @@ enum {
     A = LH_MAX_ACTUATORS,
     NETWORK = 8 + 4 * S * (2 * A + 4),
     SCRATCH = 4 * S * (3 * A + 6) + 4 * LH_MAX_UNITS * LH_COLUMN_SLOTS,
-    LEARNER = NETWORK + SCRATCH + 4 * LH_MAX_ACTIONS + 104,
-    CONTROLLER = LEARNER + 24 * A + 64 * LH_MAX_LINKS + 20 * LH_MAX_SUPPORTS + 232
+    LEARNER = NETWORK + SCRATCH + 4 * LH_MAX_ACTIONS + 4 * A + 144,
+    TASK = 20 * A + 64 * LH_MAX_LINKS + 20 * LH_MAX_SUPPORTS + 144,
+    CONTROLLER = LEARNER + TASK
 };
 
 HOLDS(lh_network, NETWORK);
 HOLDS(lh_action_scratch, SCRATCH);
 HOLDS(lh_learner, LEARNER);
+HOLDS(lh_task, TASK);
 HOLDS(lh_controller, CONTROLLER);
 
 #ifdef PAPER
@@ -27,8 +29,8 @@ _Static_assert(sizeof(lh_action_scratch) <= 8192, "scratch of the learner");
 #endif
 
 int main(void) {
-    printf("lh_network %zu\nlh_learner without scratch %zu\nlh_action_scratch %zu\nlh_controller %zu\n",
+    printf("lh_network %zu\nlh_learner without scratch %zu\nlh_action_scratch %zu\nlh_task %zu\nlh_controller %zu\n",
            sizeof(lh_network), sizeof(lh_learner) - sizeof(lh_action_scratch), sizeof(lh_action_scratch),
-           sizeof(lh_controller));
+           sizeof(lh_task), sizeof(lh_controller));
     return 0;
 }

@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "crawler.h"
+#include "limphome/task/action.h"
 #include "reference.h"
 #include "test.h"
 
@@ -11,8 +12,16 @@
 static lh_controller controller;
 static lh_controller other;
 
-static float value(const lh_network *network, const float *x) {
+static const lh_network *network_of(const lh_controller *c) {
+    return &c->learner.as.q_learning.network;
+}
+
+/* Q of what was chosen, by `network`. */
+static float value(const lh_network *network, const lh_decision *d) {
+    float x[LH_MAX_INPUTS];
     lh_activation at;
+    memcpy(x, d->observed.inputs, sizeof d->observed.inputs);
+    lh_action_inputs(d->choice.action, 4, x + d->observed.num_inputs);
     return lh_network_value(network, x, &at);
 }
 
@@ -80,7 +89,7 @@ static void toy_move(toy *p, const float *velocity) {
 static lh_decision toy_turn(lh_controller *c, toy *plant) {
     const lh_state state = toy_state(plant);
     const lh_decision decision = step(c, &state);
-    if (decision.reset) {
+    if (decision.observed.reset) {
         *plant = toy_start();
     } else {
         toy_move(plant, decision.velocity);
@@ -90,9 +99,9 @@ static lh_decision toy_turn(lh_controller *c, toy *plant) {
 
 START_TEST(defaults_are_those_of_the_paper) {
     const lh_config config = lh_config_default();
-    ck_assert(config.learn && !config.greedy);
-    ck_assert_float_eq(config.crawler_speed, 0.3f);
-    ck_assert_float_eq(config.joint_speed, 0.3f);
+    ck_assert(config.learner.learn && !config.learner.greedy);
+    ck_assert_float_eq(config.task.crawler_speed, 0.3f);
+    ck_assert_float_eq(config.task.joint_speed, 0.3f);
     ck_assert_int_eq(lh_config_validate(&config), LH_OK);
 }
 END_TEST
@@ -110,19 +119,19 @@ START_TEST(bad_fields_are_named) {
         ck_assert_int_eq(lh_controller_init(&controller, &config, &robot, &controlled), error); \
         ck_assert_mem_eq(&controller, &other, sizeof controller);                               \
     } while (0)
-    BAD(crawler_speed, 0.0f, LH_ERROR_SPEED);
-    BAD(crawler_speed, NAN, LH_ERROR_SPEED);
-    BAD(joint_speed, 2.1f, LH_ERROR_SPEED);
-    BAD(temperature_floor, 0.0f, LH_ERROR_LIMIT);
-    BAD(temperature_floor, 11.0f, LH_ERROR_LIMIT);
-    BAD(support_tolerance, NAN, LH_ERROR_LIMIT);
-    BAD(support_tolerance, 1.1f, LH_ERROR_LIMIT);
-    BAD(learner.learning_rate, -0.1f, LH_ERROR_RATE);
-    BAD(learner.network.units, 0, LH_ERROR_UNITS);
-    BAD(learner.network.width_floor, 0.0f, LH_ERROR_LIMIT);
-    BAD(learner.network.initial_weight, INFINITY, LH_ERROR_INITIAL);
-    BAD(reward.tumble, 1.0f, LH_ERROR_REWARD);
-    BAD(episode.step_limit, 0, LH_ERROR_EPISODE);
+    BAD(task.crawler_speed, 0.0f, LH_ERROR_SPEED);
+    BAD(task.crawler_speed, NAN, LH_ERROR_SPEED);
+    BAD(task.joint_speed, 2.1f, LH_ERROR_SPEED);
+    BAD(learner.q_learning.temperature_floor, 0.0f, LH_ERROR_LIMIT);
+    BAD(learner.q_learning.temperature_floor, 11.0f, LH_ERROR_LIMIT);
+    BAD(task.support_tolerance, NAN, LH_ERROR_LIMIT);
+    BAD(task.support_tolerance, 1.1f, LH_ERROR_LIMIT);
+    BAD(learner.q_learning.learning_rate, -0.1f, LH_ERROR_RATE);
+    BAD(learner.q_learning.network.units, 0, LH_ERROR_UNITS);
+    BAD(learner.q_learning.network.width_floor, 0.0f, LH_ERROR_LIMIT);
+    BAD(learner.q_learning.network.initial_weight, INFINITY, LH_ERROR_INITIAL);
+    BAD(task.reward.tumble, 1.0f, LH_ERROR_REWARD);
+    BAD(task.episode.step_limit, 0, LH_ERROR_EPISODE);
 #undef BAD
 }
 END_TEST
@@ -156,29 +165,28 @@ START_TEST(first_decision) {
     const lh_config config = lh_config_default();
     init(&controller, &config);
     const lh_decision d = step_at(&controller, 3.0f, 4.0f);
-    ck_assert(!d.stepped && !d.learned && !d.ended && !d.reset);
-    ck_assert_int_eq(d.episode, 1);
-    ck_assert_int_eq(d.step, 0);
-    ck_assert_int_eq(d.num_inputs, 10);
-    expect_near(d.goal_distance, 2.0, 1e-6);
-    expect_near(d.lateral_error, 0.0, 1e-6);
-    expect_near(d.temperature, temperature[0], 1e-5);
-    expect_near(d.stability_margin, initial_margin[0], 2e-6);
+    ck_assert(!d.observed.stepped && !d.choice.learned && d.observed.outcome == LH_OUTCOME_NONE && !d.observed.reset);
+    ck_assert_int_eq(d.observed.episode, 1);
+    ck_assert_int_eq(d.observed.step, 0);
+    ck_assert_int_eq(d.observed.num_inputs, 6);
+    expect_near(d.observed.goal_distance, 2.0, 1e-6);
+    expect_near(d.observed.lateral_error, 0.0, 1e-6);
+    expect_near(d.choice.temperature, temperature[0], 1e-5);
+    expect_near(d.observed.stability_margin, initial_margin[0], 2e-6);
     expect_near(d.choice.probability, 1.0 / 81.0, 1e-7); /* all Q are 0 */
     ck_assert_float_eq(d.velocity[0], 0.0f);             /* the failed crawler */
     int8_t levels[4];
     lh_action_levels(d.choice.action, 4, levels);
     for (int32_t k = 0; k < 4; ++k) {
         ck_assert_float_eq(d.velocity[k + 1], lh_action_velocity(levels[k], 0.3f));
-        ck_assert_float_eq(d.inputs[6 + k], lh_action_input(levels[k]));
     }
 }
 END_TEST
 
 START_TEST(crawlers_and_joints_have_their_own_speed) {
     lh_config config = lh_config_default();
-    config.crawler_speed = 0.5f;
-    config.joint_speed = 0.25f;
+    config.task.crawler_speed = 0.5f;
+    config.task.joint_speed = 0.25f;
     init(&controller, &config);
     bool seen[2][3] = {{false}};
     for (int32_t i = 0; i < 200; ++i) {
@@ -199,103 +207,105 @@ END_TEST
 /* Q, target and TD error of one ordinary step, from the library's own parts. */
 START_TEST(one_step_is_rewarded_and_learned) {
     lh_config config = lh_config_default();
-    config.learner.network.initial_weight = 0.3f;
+    config.learner.q_learning.network.initial_weight = 0.3f;
     init(&controller, &config);
     const lh_decision first = step_at(&controller, 0.0f, 0.0f);
-    const lh_network before = controller.learner.network;
+    const lh_network before = controller.learner.as.q_learning.network;
     float states[LH_MAX_STATE_INPUTS];
-    memcpy(states, controller.inputs, sizeof states);
+    memcpy(states, first.observed.inputs, sizeof states);
 
     lh_state state = crawler_state(0.05f, 0.1f, facing_y + 0.02f);
     state.actuator_effort[1] = 640.0f;
     const lh_decision d = step(&controller, &state);
-    ck_assert(d.stepped && d.learned && !d.ended);
-    ck_assert_int_eq(d.step, 1);
-    expect_near(d.reward.motion, 8 * 0.1 - 2 * 0.05 - 10 * 0.02, 1e-5);
-    expect_near(d.reward.stability, -exp(-d.stability_margin), 1e-6);
-    ck_assert_float_eq(d.reward.goal, 0.0f);
-    ck_assert_float_eq(d.reward.tumble, 0.0f);
-    expect_near(d.goal_distance, 1.9, 1e-6);
-    expect_near(d.lateral_error, -0.05, 1e-6);
+    ck_assert(d.observed.stepped && d.choice.learned && d.observed.outcome == LH_OUTCOME_NONE);
+    ck_assert_int_eq(d.observed.step, 1);
+    expect_near(d.observed.reward.motion, 8 * 0.1 - 2 * 0.05 - 10 * 0.02, 1e-5);
+    expect_near(d.observed.reward.stability, -exp(-d.observed.stability_margin), 1e-6);
+    ck_assert_float_eq(d.observed.reward.goal, 0.0f);
+    ck_assert_float_eq(d.observed.reward.tumble, 0.0f);
+    expect_near(d.observed.goal_distance, 1.9, 1e-6);
+    expect_near(d.observed.lateral_error, -0.05, 1e-6);
 
     /* the target from the network as it was */
     other = controller;
-    other.learner.network = before;
-    const float q_max = lh_learner_evaluate(&other.learner, d.inputs);
-    const float expected = lh_reward_total(&d.reward) + 0.9f * q_max - value(&before, first.inputs);
-    expect_near(d.td_error, expected, 1e-6);
-    lh_learner_learn(&other.learner, states, first.choice.action, lh_reward_total(&d.reward), q_max, false);
-    ck_assert_mem_eq(&other.learner.network, &controller.learner.network, sizeof before);
-    ck_assert_mem_ne(&before, &controller.learner.network, sizeof before);
+    other.learner.as.q_learning.network = before;
+    const float q_max = lh_q_learning_evaluate(&other.learner.as.q_learning, d.observed.inputs);
+    const float expected = lh_reward_total(&d.observed.reward) + 0.9f * q_max - value(&before, &first);
+    expect_near(d.choice.td_error, expected, 1e-6);
+    lh_q_learning_learn(&other.learner.as.q_learning, states, first.choice.action, lh_reward_total(&d.observed.reward),
+                        q_max, false);
+    ck_assert_mem_eq(network_of(&other), network_of(&controller), sizeof before);
+    ck_assert_mem_ne(&before, network_of(&controller), sizeof before);
 
     /* the choice from the network as it is now */
-    ck_assert_float_eq(d.choice.q_max, lh_learner_evaluate(&other.learner, d.inputs));
+    ck_assert_float_eq(d.choice.q_max, lh_q_learning_evaluate(&other.learner.as.q_learning, d.observed.inputs));
 }
 END_TEST
 
 START_TEST(goal_is_terminal_and_the_next_line_lies_ahead) {
     lh_config config = lh_config_default();
-    config.learner.network.initial_weight = 0.3f;
+    config.learner.q_learning.network.initial_weight = 0.3f;
     init(&controller, &config);
     const lh_decision first = step_at(&controller, 0.0f, 0.0f);
-    const float q = value(&controller.learner.network, first.inputs);
+    const float q = value(network_of(&controller), &first);
     const lh_state state = crawler_state(-0.3f, 2.1f, facing_y + 0.5f);
     const lh_decision d = step(&controller, &state);
-    ck_assert(d.stepped && d.learned && d.ended && !d.reset);
-    expect_near(d.reward.goal, 10.0 * exp(-0.3), 1e-5);
-    expect_near(d.td_error, (double)lh_reward_total(&d.reward) - q, 1e-5); /* no next state */
-    ck_assert_int_eq(d.summary.number, 1);
-    ck_assert_int_eq(d.summary.outcome, LH_OUTCOME_GOAL);
-    ck_assert_int_eq(d.summary.steps, 1);
-    expect_near(d.summary.lateral_error, 0.3, 1e-6);
-    expect_near(d.summary.heading_change, 0.5, 1e-6);
-    expect_near(d.summary.temperature, temperature[0], 1e-5);
-    ck_assert_float_eq(d.summary.goal_distance, 2.0f);
-    ck_assert_float_eq(d.summary.start.y, 0.0f);
-    ck_assert_float_eq(lh_reward_total(&d.summary.total), lh_reward_total(&d.reward));
+    ck_assert(d.observed.stepped && d.choice.learned && d.observed.outcome != LH_OUTCOME_NONE && !d.observed.reset);
+    expect_near(d.observed.reward.goal, 10.0 * exp(-0.3), 1e-5);
+    expect_near(d.choice.td_error, (double)lh_reward_total(&d.observed.reward) - q, 1e-5); /* no next state */
+    ck_assert_int_eq(d.observed.summary.number, 1);
+    ck_assert_int_eq(d.observed.summary.outcome, LH_OUTCOME_GOAL);
+    ck_assert_int_eq(d.observed.summary.steps, 1);
+    expect_near(d.observed.summary.lateral_error, 0.3, 1e-6);
+    expect_near(d.observed.summary.heading_change, 0.5, 1e-6);
+    expect_near(lh_learner_temperature(&controller.learner, 1), temperature[0], 1e-5);
+    ck_assert_float_eq(d.observed.summary.goal_distance, 2.0f);
+    ck_assert_float_eq(d.observed.summary.start.y, 0.0f);
+    ck_assert_float_eq(lh_reward_total(&d.observed.summary.total), lh_reward_total(&d.observed.reward));
 
     /* episode 2 has begun here, along the new heading */
-    ck_assert_int_eq(d.episode, 2);
-    ck_assert_int_eq(d.step, 0);
-    expect_near(d.goal_distance, 2.0, 1e-6);
-    expect_near(d.temperature, temperature[1], 1e-5);
+    ck_assert_int_eq(d.observed.episode, 2);
+    ck_assert_int_eq(d.observed.step, 0);
+    expect_near(d.observed.goal_distance, 2.0, 1e-6);
+    expect_near(d.choice.temperature, temperature[1], 1e-5);
     const lh_state ahead = crawler_state(-0.3f - (float)sin(0.5), 2.1f + (float)cos(0.5), facing_y + 0.5f);
     const lh_decision next = step(&controller, &ahead);
-    ck_assert(next.stepped && !next.ended);
-    expect_near(next.goal_distance, 1.0, 1e-5);
-    expect_near(next.lateral_error, 0.0, 1e-5);
-    expect_near(next.reward.motion, 8.0, 1e-4);
+    ck_assert(next.observed.stepped && next.observed.outcome == LH_OUTCOME_NONE);
+    expect_near(next.observed.goal_distance, 1.0, 1e-5);
+    expect_near(next.observed.lateral_error, 0.0, 1e-5);
+    expect_near(next.observed.reward.motion, 8.0, 1e-4);
 }
 END_TEST
 
 START_TEST(tumble_is_punished_terminal_and_reset) {
     lh_config config = lh_config_default();
-    config.learner.network.initial_weight = 0.3f;
+    config.learner.q_learning.network.initial_weight = 0.3f;
     init(&controller, &config);
     const lh_decision first = step_at(&controller, 0.0f, 0.0f);
-    const float q = value(&controller.learner.network, first.inputs);
+    const float q = value(network_of(&controller), &first);
     const lh_state tumbled = tumbled_state((lh_vec3){1, 0, 0});
     const lh_decision d = step(&controller, &tumbled);
-    ck_assert(d.stepped && d.learned && d.ended && d.reset);
-    ck_assert_int_eq(d.summary.outcome, LH_OUTCOME_TUMBLE);
-    ck_assert_float_eq(d.reward.tumble, -10.0f);
-    expect_near(d.reward.motion, 4.0, 1e-5); /* in addition to the step's own */
-    ck_assert_float_lt(d.reward.stability, -1.0f);
-    ck_assert_float_lt(d.stability_margin, 0.0f);
-    expect_near(d.td_error, (double)lh_reward_total(&d.reward) - q, 1e-5);
-    ck_assert_int_eq(d.episode, 1);
-    ck_assert_int_eq(d.num_inputs, 6);
+    ck_assert(d.observed.stepped && d.choice.learned && d.observed.outcome != LH_OUTCOME_NONE && d.observed.reset);
+    ck_assert_int_eq(d.observed.summary.outcome, LH_OUTCOME_TUMBLE);
+    ck_assert_float_eq(d.observed.reward.tumble, -10.0f);
+    expect_near(d.observed.reward.motion, 4.0, 1e-5); /* in addition to the step's own */
+    ck_assert_float_lt(d.observed.reward.stability, -1.0f);
+    ck_assert_float_lt(d.observed.stability_margin, 0.0f);
+    expect_near(d.choice.td_error, (double)lh_reward_total(&d.observed.reward) - q, 1e-5);
+    ck_assert_int_eq(d.observed.episode, 1);
+    ck_assert_int_eq(d.observed.num_inputs, 6);
     for (int32_t k = 0; k < LH_MAX_ACTUATORS; ++k) {
         ck_assert_float_eq(d.velocity[k], 0.0f);
     }
 
     /* the next state begins episode 2; nothing is learned from the way there */
-    const lh_network before = controller.learner.network;
+    const lh_network before = controller.learner.as.q_learning.network;
     const lh_decision next = step_at(&controller, 7.0f, 7.0f);
-    ck_assert(!next.stepped && !next.learned && !next.ended && !next.reset);
-    ck_assert_int_eq(next.episode, 2);
-    expect_near(next.goal_distance, 2.0, 1e-6);
-    ck_assert_mem_eq(&controller.learner.network, &before, sizeof before);
+    ck_assert(!next.observed.stepped && !next.choice.learned && next.observed.outcome == LH_OUTCOME_NONE &&
+              !next.observed.reset);
+    ck_assert_int_eq(next.observed.episode, 2);
+    expect_near(next.observed.goal_distance, 2.0, 1e-6);
+    ck_assert_mem_eq(network_of(&controller), &before, sizeof before);
 }
 END_TEST
 
@@ -306,46 +316,46 @@ START_TEST(tumbles_to_every_side) {
         init(&controller, &config);
         step_at(&controller, 0.0f, 0.0f);
         const lh_state tumbled = tumbled_state(axes[k]);
-        ck_assert_int_eq(step(&controller, &tumbled).summary.outcome, LH_OUTCOME_TUMBLE);
+        ck_assert_int_eq(step(&controller, &tumbled).observed.summary.outcome, LH_OUTCOME_TUMBLE);
     }
 }
 END_TEST
 
 START_TEST(timeout_goes_on_bootstrapping) {
     lh_config config = lh_config_default();
-    config.learner.network.initial_weight = 0.3f;
-    config.episode.step_limit = 2;
+    config.learner.q_learning.network.initial_weight = 0.3f;
+    config.task.episode.step_limit = 2;
     init(&controller, &config);
     step_at(&controller, 0.0f, 0.0f);
     const lh_decision first = step_at(&controller, 0.0f, 0.1f);
-    ck_assert(!first.ended);
+    ck_assert(first.observed.outcome == LH_OUTCOME_NONE);
     other = controller;
-    const float q = value(&other.learner.network, first.inputs);
+    const float q = value(network_of(&other), &first);
     const lh_decision d = step_at(&controller, 0.0f, 0.2f);
-    ck_assert(d.ended && !d.reset);
-    ck_assert_int_eq(d.summary.outcome, LH_OUTCOME_TIMEOUT);
-    ck_assert_int_eq(d.summary.steps, 2);
-    const float q_max = lh_learner_evaluate(&other.learner, d.inputs);
-    expect_near(d.td_error, lh_reward_total(&d.reward) + 0.9 * q_max - q, 1e-5);
-    expect_near(lh_reward_total(&d.summary.total), (double)lh_reward_total(&first.reward) + lh_reward_total(&d.reward),
-                1e-5);
-    ck_assert_int_eq(d.episode, 2);
+    ck_assert(d.observed.outcome != LH_OUTCOME_NONE && !d.observed.reset);
+    ck_assert_int_eq(d.observed.summary.outcome, LH_OUTCOME_TIMEOUT);
+    ck_assert_int_eq(d.observed.summary.steps, 2);
+    const float q_max = lh_q_learning_evaluate(&other.learner.as.q_learning, d.observed.inputs);
+    expect_near(d.choice.td_error, lh_reward_total(&d.observed.reward) + 0.9 * q_max - q, 1e-5);
+    expect_near(lh_reward_total(&d.observed.summary.total),
+                (double)lh_reward_total(&first.observed.reward) + lh_reward_total(&d.observed.reward), 1e-5);
+    ck_assert_int_eq(d.observed.episode, 2);
 }
 END_TEST
 
 START_TEST(reset_every_so_many_episodes) {
     lh_config config = lh_config_default();
-    config.episode.reset_every = 3;
-    config.episode.step_limit = 1;
+    config.task.episode.reset_every = 3;
+    config.task.episode.step_limit = 1;
     init(&controller, &config);
     step_at(&controller, 0.0f, 0.0f);
     for (int32_t number = 1; number <= 9; ++number) {
         const lh_decision d = step_at(&controller, 0.0f, 0.0f);
-        ck_assert(d.ended);
-        ck_assert_int_eq(d.summary.number, number);
-        ck_assert_int_eq(d.reset, number % 3 == 0);
-        if (d.reset) {
-            ck_assert(!step_at(&controller, 0.0f, 0.0f).stepped);
+        ck_assert(d.observed.outcome != LH_OUTCOME_NONE);
+        ck_assert_int_eq(d.observed.summary.number, number);
+        ck_assert_int_eq(d.observed.reset, number % 3 == 0);
+        if (d.observed.reset) {
+            ck_assert(!step_at(&controller, 0.0f, 0.0f).observed.stepped);
         }
     }
 }
@@ -357,13 +367,13 @@ START_TEST(begun_anew_by_the_plant) {
     step_at(&controller, 0.0f, 0.0f);
     step_at(&controller, 0.0f, 0.5f);
     lh_controller_begin(&controller);
-    const lh_network before = controller.learner.network;
+    const lh_network before = controller.learner.as.q_learning.network;
     const lh_decision d = step_at(&controller, 0.0f, 0.0f);
-    ck_assert(!d.stepped && !d.ended);
-    ck_assert_int_eq(d.episode, 1); /* the same one */
-    ck_assert_int_eq(d.step, 0);
-    expect_near(d.goal_distance, 2.0, 1e-6);
-    ck_assert_mem_eq(&controller.learner.network, &before, sizeof before);
+    ck_assert(!d.observed.stepped && d.observed.outcome == LH_OUTCOME_NONE);
+    ck_assert_int_eq(d.observed.episode, 1); /* the same one */
+    ck_assert_int_eq(d.observed.step, 0);
+    expect_near(d.observed.goal_distance, 2.0, 1e-6);
+    ck_assert_mem_eq(network_of(&controller), &before, sizeof before);
 }
 END_TEST
 
@@ -385,41 +395,41 @@ START_TEST(invalid_state_changes_nothing) {
         ck_assert_int_eq(lh_controller_step(&controller, &bad[k], &d), LH_ERROR_STATE);
         ck_assert_mem_eq(&controller, &other, sizeof controller);
     }
-    ck_assert(step_at(&controller, 0.0f, 0.1f).stepped);
+    ck_assert(step_at(&controller, 0.0f, 0.1f).observed.stepped);
 }
 END_TEST
 
 START_TEST(without_learning_the_network_stays) {
     lh_config config = lh_config_default();
-    config.learn = false;
-    config.learner.network.initial_weight = 0.3f;
+    config.learner.learn = false;
+    config.learner.q_learning.network.initial_weight = 0.3f;
     init(&controller, &config);
-    const lh_network before = controller.learner.network;
+    const lh_network before = controller.learner.as.q_learning.network;
     toy plant = toy_start();
     for (int32_t i = 0; i < 500; ++i) {
         const lh_decision d = toy_turn(&controller, &plant);
-        ck_assert(!d.learned);
-        ck_assert_float_eq(d.td_error, 0.0f);
+        ck_assert(!d.choice.learned);
+        ck_assert_float_eq(d.choice.td_error, 0.0f);
     }
-    ck_assert_mem_eq(&controller.learner.network, &before, sizeof before);
-    ck_assert_int_gt(controller.episode.number, 1);
+    ck_assert_mem_eq(network_of(&controller), &before, sizeof before);
+    ck_assert_int_gt(controller.task.episode.number, 1);
 }
 END_TEST
 
 START_TEST(greedy_takes_a_best_action) {
     lh_config config = lh_config_default();
-    config.greedy = true;
+    config.learner.greedy = true;
     init(&controller, &config);
-    const lh_random before = controller.learner.random;
+    const lh_random before = controller.learner.as.q_learning.random;
     toy plant = toy_start();
     for (int32_t i = 0; i < 300; ++i) {
         const lh_decision d = toy_turn(&controller, &plant);
-        if (!d.reset) {
+        if (!d.observed.reset) {
             ck_assert_float_eq(d.choice.q, d.choice.q_max);
             ck_assert_float_eq(d.choice.probability, 1.0f);
         }
     }
-    ck_assert_mem_eq(&controller.learner.random, &before, sizeof before);
+    ck_assert_mem_eq(&controller.learner.as.q_learning.random, &before, sizeof before);
 }
 END_TEST
 
@@ -428,12 +438,12 @@ START_TEST(limited_sensor_values_are_counted) {
     init(&controller, &config);
     lh_state state = crawler_state(0.0f, 0.0f, facing_y);
     step(&controller, &state);
-    ck_assert_uint_eq(controller.clamped.inputs, 0);
+    ck_assert_uint_eq(controller.task.clamped.inputs, 0);
     state.actuator_effort[1] = 2000.0f;
     state.actuator_position[4] = 0.01f;
     step(&controller, &state);
     step(&controller, &state);
-    ck_assert_uint_eq(controller.clamped.inputs, 4);
+    ck_assert_uint_eq(controller.task.clamped.inputs, 4);
 }
 END_TEST
 
@@ -450,41 +460,41 @@ START_TEST(equal_runs_are_equal_bit_by_bit) {
         ck_assert_mem_eq(&da, &db, sizeof da);
     }
     ck_assert_mem_eq(&controller, &other, sizeof other);
-    config.seed = 2;
+    config.learner.seed = 2;
     init(&other, &config);
-    ck_assert_mem_ne(&controller.learner.network, &other.learner.network, sizeof other.learner.network);
+    ck_assert_mem_ne(network_of(&controller), network_of(&other), sizeof other.learner.as.q_learning.network);
 }
 END_TEST
 
 /* Saved where a reset was asked for, then both go on: the unbroken run, and a fresh controller that is restored. */
 START_TEST(restored_run_is_equal_bit_by_bit) {
     lh_config config = lh_config_default();
-    config.episode.reset_every = 4;
-    config.episode.step_limit = 30;
+    config.task.episode.reset_every = 4;
+    config.task.episode.step_limit = 30;
     init(&controller, &config);
     toy a = toy_start();
-    lh_decision d = {.reset = false};
+    lh_decision d = {.observed = {.reset = false}};
     int32_t resets = 0;
     for (int32_t i = 0; resets < 3 && i < 10000; ++i) {
         d = toy_turn(&controller, &a);
-        resets += d.reset && d.summary.number % 4 == 0;
+        resets += d.observed.reset && d.observed.summary.number % 4 == 0;
     }
     ck_assert_int_eq(resets, 3);
-    const lh_network network = controller.learner.network;
-    uint32_t random_state[4];
-    memcpy(random_state, controller.learner.random.s, sizeof random_state);
+    lh_learned learned;
+    lh_learner_save(&controller.learner, &learned);
 
     init(&other, &config);
-    ck_assert_int_eq(lh_controller_restore(&other, &network, random_state, d.summary.number + 1), LH_OK);
+    ck_assert_int_eq(lh_controller_restore(&other, &learned, d.observed.summary.number + 1), LH_OK);
     toy b = toy_start();
     for (int32_t i = 0; i < 1000; ++i) {
         const lh_decision da = toy_turn(&controller, &a);
         const lh_decision db = toy_turn(&other, &b);
         ck_assert_mem_eq(&da, &db, sizeof da);
     }
-    ck_assert_mem_eq(&controller.learner.network, &other.learner.network, sizeof network);
-    ck_assert_mem_eq(&controller.learner.random, &other.learner.random, sizeof other.learner.random);
-    ck_assert_mem_eq(&controller.episode, &other.episode, sizeof other.episode);
+    ck_assert_mem_eq(network_of(&controller), network_of(&other), sizeof(lh_network));
+    ck_assert_mem_eq(&controller.learner.as.q_learning.random, &other.learner.as.q_learning.random,
+                     sizeof other.learner.as.q_learning.random);
+    ck_assert_mem_eq(&controller.task.episode, &other.task.episode, sizeof other.task.episode);
 }
 END_TEST
 
@@ -492,24 +502,25 @@ START_TEST(bad_checkpoints_change_nothing) {
     const lh_config config = lh_config_default();
     init(&controller, &config);
     step_at(&controller, 0.0f, 0.0f);
-    const lh_network good = controller.learner.network;
-    lh_network bad = good;
-    bad.weight[3] = NAN;
-    lh_network small = good;
-    small.units = 49;
-    const uint32_t random_state[4] = {1, 2, 3, 4};
-    const uint32_t zeros[4] = {0};
+    lh_learned good;
+    lh_learner_save(&controller.learner, &good);
+    lh_learned bad = good;
+    bad.as.q_learning.network.weight[3] = NAN;
+    lh_learned small = good;
+    small.as.q_learning.network.units = 49;
+    lh_learned spent = good;
+    spent.as.q_learning.random = (lh_random){{0}};
     other = controller;
-    ck_assert_int_eq(lh_controller_restore(&controller, &good, random_state, 0), LH_ERROR_EPISODE);
-    ck_assert_int_eq(lh_controller_restore(&controller, &good, random_state, INT32_MAX), LH_ERROR_EPISODE);
-    ck_assert_int_eq(lh_controller_restore(&controller, &bad, random_state, 1), LH_ERROR_NETWORK);
-    ck_assert_int_eq(lh_controller_restore(&controller, &small, random_state, 1), LH_ERROR_NETWORK);
-    ck_assert_int_eq(lh_controller_restore(&controller, &good, zeros, 1), LH_ERROR_RANDOM_STATE);
+    ck_assert_int_eq(lh_controller_restore(&controller, &good, 0), LH_ERROR_EPISODE);
+    ck_assert_int_eq(lh_controller_restore(&controller, &good, INT32_MAX), LH_ERROR_EPISODE);
+    ck_assert_int_eq(lh_controller_restore(&controller, &bad, 1), LH_ERROR_NETWORK);
+    ck_assert_int_eq(lh_controller_restore(&controller, &small, 1), LH_ERROR_NETWORK);
+    ck_assert_int_eq(lh_controller_restore(&controller, &spent, 1), LH_ERROR_RANDOM_STATE);
     ck_assert_mem_eq(&controller, &other, sizeof controller);
-    ck_assert_int_eq(lh_controller_restore(&controller, &good, random_state, 1000000000), LH_OK);
-    ck_assert_int_eq(lh_controller_restore(&controller, &good, random_state, 1000000001), LH_ERROR_EPISODE);
-    ck_assert_int_eq(lh_controller_restore(&controller, &good, random_state, 51), LH_OK);
-    ck_assert_int_eq(step_at(&controller, 0.0f, 0.0f).episode, 51);
+    ck_assert_int_eq(lh_controller_restore(&controller, &good, LH_LAST_EPISODE), LH_OK);
+    ck_assert_int_eq(lh_controller_restore(&controller, &good, LH_LAST_EPISODE + 1), LH_ERROR_EPISODE);
+    ck_assert_int_eq(lh_controller_restore(&controller, &good, 51), LH_OK);
+    ck_assert_int_eq(step_at(&controller, 0.0f, 0.0f).observed.episode, 51);
 }
 END_TEST
 
@@ -517,18 +528,18 @@ END_TEST
 START_TEST(last_episode_number_is_used_again) {
     const lh_config config = lh_config_default();
     init(&controller, &config);
-    const lh_network network = controller.learner.network;
-    const uint32_t random_state[4] = {1, 2, 3, 4};
-    ck_assert_int_eq(lh_controller_restore(&controller, &network, random_state, 999999999), LH_OK);
-    ck_assert_int_eq(step_at(&controller, 0.0f, 0.0f).episode, 999999999);
-    ck_assert(!step_at(&controller, 0.0f, 2.5f).reset); /* on the goal line */
-    ck_assert_int_eq(controller.episode.number, 1000000000);
-    ck_assert(step_at(&controller, 0.0f, 5.0f).reset); /* a multiple of reset_every */
-    ck_assert_int_eq(controller.episode.number, 1000000000);
-    controller.config.episode.reset_every = 7;
+    lh_learned learned;
+    lh_learner_save(&controller.learner, &learned);
+    ck_assert_int_eq(lh_controller_restore(&controller, &learned, 999999999), LH_OK);
+    ck_assert_int_eq(step_at(&controller, 0.0f, 0.0f).observed.episode, 999999999);
+    ck_assert(!step_at(&controller, 0.0f, 2.5f).observed.reset); /* on the goal line */
+    ck_assert_int_eq(controller.task.episode.number, 1000000000);
+    ck_assert(step_at(&controller, 0.0f, 5.0f).observed.reset); /* a multiple of reset_every */
+    ck_assert_int_eq(controller.task.episode.number, 1000000000);
+    controller.task.config.episode.reset_every = 7;
     step_at(&controller, 0.0f, 0.0f);
-    ck_assert(!step_at(&controller, 0.0f, 2.5f).reset);
-    ck_assert_int_eq(controller.episode.number, 1000000000);
+    ck_assert(!step_at(&controller, 0.0f, 2.5f).observed.reset);
+    ck_assert_int_eq(controller.task.episode.number, 1000000000);
 }
 END_TEST
 
@@ -548,13 +559,13 @@ START_TEST(works_at_full_capacity) {
         controlled.index[k] = k;
     }
     lh_config config = lh_config_default();
-    config.learner.network.units = LH_MAX_UNITS;
+    config.learner.q_learning.network.units = LH_MAX_UNITS;
     ck_assert_int_eq(lh_controller_init(&controller, &config, &robot, &controlled), LH_OK);
     lh_state state = crawler_state(0.0f, 0.0f, facing_y);
     state.num_actuators = LH_MAX_ACTUATORS;
     for (int32_t i = 0; i < 20; ++i) {
         const lh_decision d = step(&controller, &state);
-        ck_assert_int_eq(d.num_inputs, LH_MAX_INPUTS);
+        ck_assert_int_eq(d.observed.num_inputs, LH_MAX_STATE_INPUTS);
         ck_assert(d.choice.action >= 0 && d.choice.action < 6561);
         state.position[1] += 0.01f;
     }
@@ -563,26 +574,26 @@ END_TEST
 
 START_TEST(limited_temperatures_and_margins_are_counted) {
     lh_config config = lh_config_default();
-    config.temperature_floor = 2.0f; /* (4) gives 10.5 in episode 1, and 1.35 in episode 2 */
-    config.episode.step_limit = 3;
+    config.learner.q_learning.temperature_floor = 2.0f; /* (4) gives 10.5 in episode 1, and 1.35 in episode 2 */
+    config.task.episode.step_limit = 3;
     init(&controller, &config);
     for (int32_t i = 0; i < 3; ++i) {
-        ck_assert_float_gt(step_at(&controller, 0.0f, 0.0f).temperature, 2.0f);
-        ck_assert_uint_eq(controller.clamped.temperatures, 0);
+        ck_assert_float_gt(step_at(&controller, 0.0f, 0.0f).choice.temperature, 2.0f);
+        ck_assert_uint_eq(controller.learner.as.q_learning.floored, 0);
     }
     for (int32_t i = 0; i < 3; ++i) {
-        ck_assert_float_eq(step_at(&controller, 0.0f, 0.0f).temperature, 2.0f);
-        ck_assert_uint_eq(controller.clamped.temperatures, (uint64_t)i + 1);
+        ck_assert_float_eq(step_at(&controller, 0.0f, 0.0f).choice.temperature, 2.0f);
+        ck_assert_uint_eq(controller.learner.as.q_learning.floored, (uint64_t)i + 1);
     }
-    ck_assert_uint_eq(controller.clamped.margins, 0);
+    ck_assert_uint_eq(controller.task.clamped.margins, 0);
     /* a mast so high that the centre of mass lies far out when the robot lies on its side */
-    controller.robot.links[3].centre.z = 900.0f;
+    controller.task.robot.links[3].centre.z = 900.0f;
     lh_state state = tumbled_state((lh_vec3){1.0f, 0.0f, 0.0f});
     const lh_decision d = step(&controller, &state);
-    ck_assert_float_lt(d.stability_margin, LH_LEAST_MARGIN);
-    expect_near(d.reward.stability, -exp(5.0), 1e-3);
-    ck_assert_uint_eq(controller.clamped.margins, 1);
-    ck_assert_uint_eq(controller.clamped.inputs, 0);
+    ck_assert_float_lt(d.observed.stability_margin, LH_LEAST_MARGIN);
+    expect_near(d.observed.reward.stability, -exp(5.0), 1e-3);
+    ck_assert_uint_eq(controller.task.clamped.margins, 1);
+    ck_assert_uint_eq(controller.task.clamped.inputs, 0);
 }
 END_TEST
 
@@ -618,33 +629,35 @@ static bool all_finite(const float *values, int32_t count) {
 }
 
 static bool is_finite_decision(const lh_decision *d) {
-    const float all[] = {d->reward.motion,
-                         d->reward.goal,
-                         d->reward.stability,
-                         d->reward.tumble,
-                         d->td_error,
-                         d->goal_distance,
-                         d->lateral_error,
-                         d->stability_margin,
+    const float all[] = {d->observed.reward.motion,
+                         d->observed.reward.goal,
+                         d->observed.reward.stability,
+                         d->observed.reward.tumble,
+                         d->choice.td_error,
+                         d->observed.goal_distance,
+                         d->observed.lateral_error,
+                         d->observed.stability_margin,
                          d->choice.q,
                          d->choice.q_max,
-                         d->temperature,
+                         d->choice.temperature,
                          d->choice.probability,
-                         d->summary.total.motion,
-                         d->summary.lateral_error};
-    return all_finite(all, COUNT(all)) && all_finite(d->inputs, d->num_inputs) && all_finite(d->velocity, 5);
+                         d->observed.summary.total.motion,
+                         d->observed.summary.lateral_error};
+    return all_finite(all, COUNT(all)) && all_finite(d->observed.inputs, d->observed.num_inputs) &&
+           all_finite(d->velocity, 5);
 }
 
 /* Whatever the sensors say and however the rates are set, nothing but finite numbers within their limits is stored. */
 START_TEST(extremes_leave_finite_numbers_within_their_limits) {
     lh_config config = lh_config_default();
-    config.learner.learning_rate = config.learner.discount_rate = 1.0f;
-    config.learner.network.rate_weight = config.learner.network.rate_centre = config.learner.network.rate_width = 10.0f;
-    config.learner.network.exact_gradient = true;
-    config.learner.network.weight_limit = 1e6f;
-    config.learner.network.width_floor = 0.01f;
-    config.reward = (lh_reward_config){1000.0f, 1000.0f, 1000.0f, true, 1000.0f, 1000.0f, -1000.0f};
-    config.temperature_floor = 1e-4f;
+    config.learner.q_learning.learning_rate = config.learner.q_learning.discount_rate = 1.0f;
+    config.learner.q_learning.network.rate_weight = config.learner.q_learning.network.rate_centre =
+        config.learner.q_learning.network.rate_width = 10.0f;
+    config.learner.q_learning.network.exact_gradient = true;
+    config.learner.q_learning.network.weight_limit = 1e6f;
+    config.learner.q_learning.network.width_floor = 0.01f;
+    config.task.reward = (lh_reward_config){1000.0f, 1000.0f, 1000.0f, true, 1000.0f, 1000.0f, -1000.0f};
+    config.learner.q_learning.temperature_floor = 1e-4f;
     lh_random random;
     lh_random_init(&random, 4);
     int32_t decided = 0;
@@ -652,41 +665,42 @@ START_TEST(extremes_leave_finite_numbers_within_their_limits) {
     int64_t held = 0;
     for (int32_t offered = 0; decided < 100000; ++offered) {
         if (decided % 100 == 0) { /* once all is at its limits, little is learned */
-            config.seed = (uint64_t)offered;
+            config.learner.seed = (uint64_t)offered;
             init(&controller, &config);
         }
         const lh_state state = extreme_state(&random);
         lh_decision d;
         if (lh_controller_step(&controller, &state, &d) == LH_OK) {
             ++decided;
-            held += d.learned && controller.learner.held.centres > 0;
+            held += d.choice.learned && controller.learner.as.q_learning.held.centres > 0;
             faults += !is_finite_decision(&d);
-            faults += lh_network_validate(&controller.learner.network, &controller.config.learner.network) != LH_OK;
-            faults += !all_finite(controller.learner.q, controller.learner.num_actions);
+            faults +=
+                lh_network_validate(network_of(&controller), &controller.learner.as.q_learning.config.network) != LH_OK;
+            faults += !all_finite(controller.learner.as.q_learning.q, controller.learner.as.q_learning.num_actions);
         }
         ck_assert_int_lt(offered, 10000000);
     }
     ck_assert_int_eq(faults, 0);
     ck_assert_int_gt(held, 10000);
-    ck_assert_uint_gt(controller.clamped.inputs, 0);
+    ck_assert_uint_gt(controller.task.clamped.inputs, 0);
 }
 END_TEST
 
 /* A reward for driving forward must show: after learning on the toy, the greedy policy drives forward. */
 START_TEST(learns_to_drive_forward) {
     lh_config config = lh_config_default();
-    config.learner.learning_rate = 1.0f;
-    config.learner.network.exact_gradient = true;
-    config.learner.network.rate_weight = 0.05f;
-    config.learner.network.rate_centre = config.learner.network.rate_width = 0.0f;
-    config.reward.tumble = -1.0f;
+    config.learner.q_learning.learning_rate = 1.0f;
+    config.learner.q_learning.network.exact_gradient = true;
+    config.learner.q_learning.network.rate_weight = 0.05f;
+    config.learner.q_learning.network.rate_centre = config.learner.q_learning.network.rate_width = 0.0f;
+    config.task.reward.tumble = -1.0f;
     init(&controller, &config);
     toy plant = toy_start();
     for (int32_t i = 0; i < 6000; ++i) {
         toy_turn(&controller, &plant);
     }
-    controller.config.greedy = true;
-    controller.config.learn = false;
+    controller.learner.greedy = true;
+    controller.learner.learn = false;
     lh_controller_begin(&controller);
     plant = toy_start();
     int32_t forward = 0;

@@ -30,6 +30,8 @@ const char *lh_error_text(lh_error error) {
             return "The network has other dimensions than configured or values out of range";
         case LH_ERROR_RANDOM_STATE:
             return "The state of the random number generator is all zero";
+        case LH_ERROR_LEARNER:
+            return "The kind of learner is unknown or another than what was saved";
         case LH_ERROR_COUNT:
             break;
     }

@@ -21,6 +21,7 @@ typedef enum lh_error {
     LH_ERROR_STATE,        /* a state holds NaN, infinity, a quaternion far from unit length, or another robot's size */
     LH_ERROR_NETWORK,      /* a network to be restored has other dimensions or values out of range */
     LH_ERROR_RANDOM_STATE, /* a random state to be restored is all zero */
+    LH_ERROR_LEARNER,      /* the kind of learner is unknown, or what is to be restored is of another kind */
     LH_ERROR_COUNT         /* number of entries above, not an error */
 } lh_error;
 

@@ -3,83 +3,88 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "limphome/task/action.h"
-#include "limphome/learning/boltzmann.h"
-#include "limphome/base/elementary.h"
-
 lh_learner_config lh_learner_config_default(void) {
     return (lh_learner_config){
-        .learning_rate = 0.1f,
-        .discount_rate = 0.9f,
-        .network = lh_network_config_default(),
+        .kind = LH_Q_LEARNING,
+        .seed = 1,
+        .learn = true,
+        .greedy = false,
+        .q_learning = lh_q_learning_config_default(),
     };
 }
 
 lh_error lh_learner_config_validate(const lh_learner_config *config) {
-    if (!lh_within(config->learning_rate, 0.0f, 1.0f) || !lh_within(config->discount_rate, 0.0f, 1.0f)) {
-        return LH_ERROR_RATE;
+    switch (config->kind) {
+        case LH_Q_LEARNING:
+            return lh_q_learning_config_validate(&config->q_learning);
     }
-    return lh_network_config_validate(&config->network);
+    return LH_ERROR_LEARNER;
 }
 
-lh_error lh_learner_init(lh_learner *learner, const lh_learner_config *config, int32_t num_states,
-                         int32_t num_controlled, uint64_t seed) {
-    lh_error error = lh_learner_config_validate(config);
-    if (error != LH_OK) {
-        return error;
-    }
-    if (num_controlled < 1 || num_controlled > LH_MAX_ACTUATORS || lh_action_count(num_controlled) > LH_MAX_ACTIONS) {
-        return LH_ERROR_ACTUATORS;
-    }
-    if (num_states < 0 || num_states > LH_MAX_STATE_INPUTS || config->network.inputs != num_states + num_controlled) {
-        return LH_ERROR_INPUTS;
-    }
-    memset(learner, 0, sizeof *learner); /* not by a literal, which would lie on the stack */
-    learner->config = *config;
-    learner->num_states = num_states;
-    learner->num_actions = lh_action_count(num_controlled);
-    lh_random_init(&learner->random, seed);
-    return lh_network_init(&learner->network, &config->network, &learner->random);
+/* Inputs of the network follow from the task. */
+static lh_error init_q_learning(lh_learner *learner, const lh_learner_config *config, const lh_task *task) {
+    int32_t num_controlled = task->controlled.count;
+    lh_q_learning_config complete = config->q_learning;
+    complete.network.inputs = num_controlled + 2 + num_controlled;
+    return lh_q_learning_init(&learner->as.q_learning, &complete, num_controlled + 2, num_controlled, config->seed);
 }
 
-float lh_learner_evaluate(lh_learner *learner, const float *states) {
-    learner->q_max = lh_action_values(&learner->network, states, learner->num_states, &learner->scratch, learner->q);
-    return learner->q_max;
+lh_error lh_learner_init(lh_learner *learner, const lh_learner_config *config, const lh_task *task) {
+    lh_error error = LH_ERROR_LEARNER;
+    switch (config->kind) {
+        case LH_Q_LEARNING:
+            error = init_q_learning(learner, config, task);
+            break;
+    }
+    if (error == LH_OK) {
+        memset(learner, 0, offsetof(lh_learner, as)); /* what lies between the fields, too */
+        learner->kind = config->kind;
+        learner->learn = config->learn;
+        learner->greedy = config->greedy;
+    }
+    return error;
 }
 
-lh_choice lh_learner_choose(lh_learner *learner, float temperature, bool greedy) {
-    const float *q = learner->q;
-    lh_choice choice = {.q_max = learner->q_max, .probability = 1.0f};
-    if (greedy) {
-        choice.action = lh_boltzmann_greedy(q, learner->num_actions);
-    } else {
-        choice.action =
-            lh_boltzmann_select(q, learner->num_actions, temperature, &learner->random, &choice.probability);
+void lh_learner_begin(lh_learner *learner) {
+    switch (learner->kind) {
+        case LH_Q_LEARNING:
+            lh_q_learning_begin(&learner->as.q_learning);
+            break;
     }
-    choice.q = q[choice.action];
-    return choice;
 }
 
-float lh_learner_learn(lh_learner *learner, const float *states, int32_t action, float reward, float next_q_max,
-                       bool terminal) {
-    int32_t num_controlled = learner->network.inputs - learner->num_states;
-    int8_t levels[LH_MAX_ACTUATORS];
-    lh_action_levels(action, num_controlled, levels);
-    float x[LH_MAX_INPUTS];
-    for (int32_t i = 0; i < learner->num_states; ++i) {
-        x[i] = states[i];
+void lh_learner_step(lh_learner *learner, const lh_observed *observed, lh_choice *choice) {
+    switch (learner->kind) {
+        case LH_Q_LEARNING:
+            lh_q_learning_step(&learner->as.q_learning, observed, learner->learn, learner->greedy, choice);
+            break;
     }
-    for (int32_t k = 0; k < num_controlled; ++k) {
-        x[learner->num_states + k] = lh_action_input(levels[k]);
-    }
+}
 
-    float target = reward + (terminal ? 0.0f : learner->config.discount_rate * next_q_max);
-    lh_activation at;
-    float td_error = target - lh_network_value(&learner->network, x, &at);
-    lh_held held =
-        lh_network_learn(&learner->network, &learner->config.network, x, &at, learner->config.learning_rate, td_error);
-    learner->held.weights += held.weights;
-    learner->held.widths += held.widths;
-    learner->held.centres += held.centres;
-    return td_error;
+float lh_learner_temperature(const lh_learner *learner, int32_t episode) {
+    switch (learner->kind) {
+        case LH_Q_LEARNING:
+            return lh_q_learning_temperature(&learner->as.q_learning, episode);
+    }
+    return 0.0f;
+}
+
+void lh_learner_save(const lh_learner *learner, lh_learned *learned) {
+    learned->kind = learner->kind;
+    switch (learner->kind) {
+        case LH_Q_LEARNING:
+            lh_q_learning_save(&learner->as.q_learning, &learned->as.q_learning);
+            break;
+    }
+}
+
+lh_error lh_learner_restore(lh_learner *learner, const lh_learned *learned) {
+    if (learned->kind != learner->kind) {
+        return LH_ERROR_LEARNER;
+    }
+    switch (learner->kind) {
+        case LH_Q_LEARNING:
+            return lh_q_learning_restore(&learner->as.q_learning, &learned->as.q_learning);
+    }
+    return LH_ERROR_LEARNER;
 }

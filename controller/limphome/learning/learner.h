@@ -1,65 +1,74 @@
-/* Q-learning (1)(2) on the RBF network, with Boltzmann selection (3). */
+/* The learner: takes what was observed, answers with a choice. Each kind orders learning and choosing itself.
+ *
+ * Another kind is a pair of files like q_learning, and a line each where the kinds are listed here and switched over in
+ * learner.c. */
 #ifndef LIMPHOME_LEARNER_H
 #define LIMPHOME_LEARNER_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "limphome/learning/action_values.h"
-#include "limphome/learning/network.h"
-#include "limphome/base/random.h"
+#include "limphome/learning/choice.h"
+#include "limphome/learning/q_learning.h"
+#include "limphome/task/task.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
+typedef enum lh_learner_kind {
+    LH_Q_LEARNING = 0, /* the paper's */
+} lh_learner_kind;
+
 typedef struct lh_learner_config {
-    float learning_rate;       /* alpha of (2), 0 to 1; paper: 0.1 */
-    float discount_rate;       /* gamma of (1), 0 to 1; paper: 0.9 */
-    lh_network_config network; /* inputs = state inputs + controlled actuators */
+    lh_learner_kind kind;
+    uint64_t seed; /* of all random numbers */
+    bool learn;    /* false: what was learned stays as it is */
+    bool greedy;   /* true: always a best action, without exploration */
+    lh_q_learning_config q_learning;
 } lh_learner_config;
 
-/* What a resumed run needs is `network` and `random`; the rest is overwritten by each decision. */
 typedef struct lh_learner {
-    lh_learner_config config;
-    int32_t num_states;  /* state inputs of the network */
-    int32_t num_actions; /* joint actions, 3^n */
-    lh_network network;
-    lh_random random;
-    lh_held held;            /* network parameters held at a limit so far */
-    float q_max;             /* the largest of q */
-    float q[LH_MAX_ACTIONS]; /* Q(s, a) of the newest state [num_actions] */
-    lh_action_scratch scratch;
+    lh_learner_kind kind;
+    bool learn;  /* as in the configuration; may be changed between two steps */
+    bool greedy; /* likewise */
+    union {
+        lh_q_learning q_learning;
+    } as; /* by kind */
 } lh_learner;
 
-/* Choice of one decision. */
-typedef struct lh_choice {
-    int32_t action;    /* joint action, see action.h */
-    float q;           /* its Q(s, a) */
-    float q_max;       /* max over a of Q(s, a) */
-    float probability; /* (3) of the chosen action; 1 when greedy */
-} lh_choice;
+/* What was learned so far and the state of the random numbers: all that a later run needs. */
+typedef struct lh_learned {
+    lh_learner_kind kind;
+    union {
+        lh_q_learned q_learning;
+    } as; /* by kind */
+} lh_learned;
 
-/* alpha 0.1, gamma 0.9, and the network's default. */
+/* Q-learning, learning, with Boltzmann selection, seed 1; every kind at its own defaults. */
 lh_learner_config lh_learner_config_default(void);
+
+/* LH_OK, LH_ERROR_LEARNER for an unknown kind, or the error of the first bad field of that kind. */
 lh_error lh_learner_config_validate(const lh_learner_config *config);
 
-/* `num_controlled` actuators (1 to LH_MAX_ACTUATORS) give 3^num_controlled actions; config->network.inputs must be
- * num_states + num_controlled. Centres are drawn from `seed`, and the same generator goes on to select actions. */
-lh_error lh_learner_init(lh_learner *learner, const lh_learner_config *config, int32_t num_states,
-                         int32_t num_controlled, uint64_t seed);
+/* A learner that knows nothing, for the actuators that `task` controls. On an error nothing is changed. */
+lh_error lh_learner_init(lh_learner *learner, const lh_learner_config *config, const lh_task *task);
 
-/* Computes Q(s, a) of all joint actions into learner->q for the state inputs states[num_states], each in [0, 1].
- * Returns the largest. */
-float lh_learner_evaluate(lh_learner *learner, const float *states);
+/* Where a session begins or the robot was put elsewhere: the step under way is forgotten. */
+void lh_learner_begin(lh_learner *learner);
 
-/* Chooses among learner->q: by (3) at `temperature`, or a largest one if `greedy` (then no random number is used). */
-lh_choice lh_learner_choose(lh_learner *learner, float temperature, bool greedy);
+/* One decision, on what lh_task_observe has told: fills *choice. With observed->reset nothing is chosen; call
+ * lh_learner_begin before the next step. */
+void lh_learner_step(lh_learner *learner, const lh_observed *observed, lh_choice *choice);
 
-/* Learns from one step: Q(states, action) moves towards reward + gamma * next_q_max by (1), (2), (19)-(21).
- * `terminal`: there is no next state and next_q_max is not used. Returns the TD error delta of (1). */
-float lh_learner_learn(lh_learner *learner, const float *states, int32_t action, float reward, float next_q_max,
-                       bool terminal);
+/* Temperature of exploration in `episode`, from 1: T of (4) for Q-learning. */
+float lh_learner_temperature(const lh_learner *learner, int32_t episode);
+
+void lh_learner_save(const lh_learner *learner, lh_learned *learned);
+
+/* Goes on from what was saved. LH_ERROR_LEARNER for that of another kind, or the kind's own error; then nothing is
+ * changed. */
+lh_error lh_learner_restore(lh_learner *learner, const lh_learned *learned);
 
 #ifdef __cplusplus
 }

@@ -27,6 +27,14 @@ float lh_action_input(int8_t level) {
     return 0.5f * (float)level;
 }
 
+void lh_action_inputs(int32_t index, int32_t n, float *inputs) {
+    int8_t levels[LH_MAX_ACTUATORS];
+    lh_action_levels(index, n, levels);
+    for (int32_t k = 0; k < n; ++k) {
+        inputs[k] = lh_action_input(levels[k]);
+    }
+}
+
 float lh_action_velocity(int8_t level, float speed) {
     return (float)(level - 1) * speed;
 }

@@ -23,6 +23,9 @@ int32_t lh_action_index(const int8_t *levels, int32_t n);
 /* A level as a network input: 0, 0.5 or 1. */
 float lh_action_input(int8_t level);
 
+/* The levels of joint action `index` as network inputs [n]. */
+void lh_action_inputs(int32_t index, int32_t n, float *inputs);
+
 /* A level as a velocity [m/s or rad/s]: -speed, 0 or speed. */
 float lh_action_velocity(int8_t level, float speed);
 

@@ -11,11 +11,13 @@
 extern "C" {
 #endif
 
+#define LH_LAST_EPISODE 1000000000 /* where counting stops */
+
 typedef enum lh_outcome {
-    LH_OUTCOME_GOAL = 0,
-    LH_OUTCOME_TUMBLE = 1,
-    LH_OUTCOME_TIMEOUT = 2,
-    LH_OUTCOME_NONE = 3 /* goes on */
+    LH_OUTCOME_NONE = 0, /* goes on */
+    LH_OUTCOME_GOAL = 1,
+    LH_OUTCOME_TUMBLE = 2,
+    LH_OUTCOME_TIMEOUT = 3
 } lh_outcome;
 
 typedef struct lh_episode_config {
@@ -26,7 +28,7 @@ typedef struct lh_episode_config {
 } lh_episode_config;
 
 typedef struct lh_episode {
-    int32_t number; /* t of (4), from 1 */
+    int32_t number; /* t of (4), 1 to LH_LAST_EPISODE */
     int32_t steps;  /* decisions completed */
     lh_pose2 start;
     lh_reward total; /* sums over the steps */

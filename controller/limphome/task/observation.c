@@ -20,7 +20,8 @@ void lh_observation_range(const lh_actuator *actuator, float *low, float *high) 
     *high = is_joint ? actuator->high : actuator->effort_limit;
 }
 
-int32_t lh_observation(const lh_robot *robot, const lh_controlled *controlled, const lh_state *state, float *inputs) {
+int32_t lh_observation(const lh_robot *robot, const lh_controlled *controlled, const lh_state *state, lh_quat attitude,
+                       float *inputs) {
     int32_t clamped = 0;
     for (int32_t k = 0; k < controlled->count; ++k) {
         int32_t index = controlled->index[k];
@@ -31,7 +32,6 @@ int32_t lh_observation(const lh_robot *robot, const lh_controlled *controlled, c
         lh_observation_range(actuator, &low, &high);
         inputs[k] = lh_observation_scale(value, low, high, &clamped);
     }
-    lh_quat attitude = lh_quat_normalise(state->orientation);
     float *angles = inputs + controlled->count;
     angles[0] = lh_observation_scale(lh_quat_roll(attitude), -0.5f * LH_PI, 0.5f * LH_PI, &clamped);
     angles[1] = lh_observation_scale(lh_quat_pitch(attitude), -0.5f * LH_PI, 0.5f * LH_PI, &clamped);

@@ -32,8 +32,10 @@ float lh_observation_scale(float value, float low, float high, int32_t *clamped)
 /* Range of the state value of an actuator: -limit to limit for a crawler, its joint range for a joint. */
 void lh_observation_range(const lh_actuator *actuator, float *low, float *high);
 
-/* Fills inputs[controlled->count + 2]; returns how many values were limited to their range. `state` must be valid. */
-int32_t lh_observation(const lh_robot *robot, const lh_controlled *controlled, const lh_state *state, float *inputs);
+/* Fills inputs[controlled->count + 2]; returns how many values were limited to their range. `state` must be valid;
+ * `attitude` is its orientation, of unit length. */
+int32_t lh_observation(const lh_robot *robot, const lh_controlled *controlled, const lh_state *state, lh_quat attitude,
+                       float *inputs);
 
 /* LH_OK, or LH_ERROR_STATE for NaN, infinity, |position| over 1e6 m, a joint angle over LH_ANGLE_LIMIT, a quaternion
  * whose length is not within 0.9 to 1.1, or a number of actuators other than the robot's. */

@@ -6,20 +6,20 @@
 /* Too large for some stacks. */
 static lh_controller controller;
 static lh_controller other;
-static lh_learner learner;
-static lh_learner same;
+static lh_q_learning learner;
+static lh_q_learning same;
 
 _Static_assert(LH_MAX_ACTUATORS >= 5 && LH_MAX_ACTIONS == 81, "room for 5 actuators, but for the actions of 4 only");
 
 START_TEST(learner_refuses_more_actions_than_it_has_room_for) {
-    lh_learner_config config = lh_learner_config_default();
+    lh_q_learning_config config = lh_q_learning_config_default();
     memset(&learner, 0x5a, sizeof learner);
     memset(&same, 0x5a, sizeof same);
     config.network.inputs = 12;
-    ck_assert_int_eq(lh_learner_init(&learner, &config, 7, 5, 1), LH_ERROR_ACTUATORS);
+    ck_assert_int_eq(lh_q_learning_init(&learner, &config, 7, 5, 1), LH_ERROR_ACTUATORS);
     ck_assert_mem_eq(&learner, &same, sizeof learner);
     config.network.inputs = 10;
-    ck_assert_int_eq(lh_learner_init(&learner, &config, 6, 4, 1), LH_OK);
+    ck_assert_int_eq(lh_q_learning_init(&learner, &config, 6, 4, 1), LH_OK);
     ck_assert_int_eq(learner.num_actions, LH_MAX_ACTIONS);
 }
 END_TEST
@@ -48,7 +48,7 @@ START_TEST(chooses_among_all_actions) {
     for (int32_t i = 0; i < 2000; ++i) {
         lh_decision decision;
         ck_assert_int_eq(lh_controller_step(&controller, &state, &decision), LH_OK);
-        if (!decision.reset) {
+        if (!decision.observed.reset) {
             ck_assert(decision.choice.action >= 0 && decision.choice.action < LH_MAX_ACTIONS);
             ++chosen[decision.choice.action];
         }

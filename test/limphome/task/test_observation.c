@@ -47,7 +47,7 @@ START_TEST(inputs_of_the_paper) {
     const lh_quat pitch = lh_quat_about((lh_vec3){0, 1, 0}, -0.3f);
     state.orientation = lh_quat_multiply(state.orientation, lh_quat_multiply(pitch, roll));
     float inputs[6];
-    ck_assert_int_eq(lh_observation(&robot, &controlled, &state, inputs), 0);
+    ck_assert_int_eq(lh_observation(&robot, &controlled, &state, state.orientation, inputs), 0);
     expect_near(inputs[0], 0.75, 1e-6);
     expect_near(inputs[1], 0.25, 1e-6);
     expect_near(inputs[2], 0.5, 1e-6);
@@ -61,7 +61,7 @@ START_TEST(inputs_of_the_paper) {
     state.orientation.y *= 1.05f;
     state.orientation.z *= 1.05f;
     float again[6];
-    lh_observation(&robot, &controlled, &state, again);
+    lh_observation(&robot, &controlled, &state, lh_quat_normalise(state.orientation), again);
     for (int32_t i = 0; i < 6; ++i) {
         expect_near(again[i], inputs[i], 1e-6);
     }
@@ -77,7 +77,7 @@ START_TEST(values_beyond_their_range_are_counted) {
     state.actuator_position[4] = 0.001f;
     state.orientation = lh_quat_about((lh_vec3){1, 0, 0}, 2.0f); /* on its back */
     float inputs[6];
-    ck_assert_int_eq(lh_observation(&robot, &controlled, &state, inputs), 3);
+    ck_assert_int_eq(lh_observation(&robot, &controlled, &state, state.orientation, inputs), 3);
     ck_assert_float_eq(inputs[0], 0.0f);
     ck_assert_float_eq(inputs[3], 1.0f);
     ck_assert_float_eq(inputs[4], 1.0f);

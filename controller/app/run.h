@@ -1,12 +1,13 @@
-/* An experiment: states in, decisions out, until all episodes are done or it is stopped. */
-#ifndef LIMPHOME_APP_EXPERIMENT_H
-#define LIMPHOME_APP_EXPERIMENT_H
+/* A run: states in, decisions out, until all episodes are done or it is stopped. */
+#ifndef LIMPHOME_APP_RUN_H
+#define LIMPHOME_APP_RUN_H
 
 #include <signal.h>
 #include <stdbool.h>
 
 #include "bus.h"
 #include "command_line.h"
+#include "fail.h"
 #include "limphome/controller.h"
 #include "limphome_checkpoint_t.h"
 #include "limphome_velocity_command_t.h"
@@ -14,7 +15,7 @@
 #include "session.h"
 #include "urdf.h"
 
-typedef struct experiment {
+typedef struct run {
     settings settings;
     urdf_robot robot;
     lh_config config;
@@ -22,6 +23,7 @@ typedef struct experiment {
     run_folder folder;
     bus bus;
     session_tracker session;
+    char error[ERROR_LENGTH]; /* why it failed; "" while it has not */
 
     /* how the learner begins, once the first state has told which actuators obey */
     bool evaluating; /* drive with `policy`, without learning */
@@ -41,18 +43,17 @@ typedef struct experiment {
     int64_t repeated; /* states heard again */
     double started;   /* monotonic [s] */
     double status_at; /* next status is due [s] */
-    bool failed;      /* something could not be written or makes no sense; the reason has been printed */
-} experiment;
+} run;
 
-/* Reads robot, policy or checkpoint, makes the run folder and joins the bus. False, with the reason on stderr, if
- * anything is wrong; then nothing is left open. */
-bool experiment_open(experiment *e, const command_line *line);
+/* Reads robot, policy or checkpoint, makes the run folder and joins the bus. False, with the reason in r->error and
+ * nothing left open, if anything is wrong. */
+bool run_open(run *r, const command_line *line);
 
-/* Runs until all episodes are done (true), or something fails or *stop becomes non-zero (false). */
-bool experiment_run(experiment *e, const volatile sig_atomic_t *stop);
+/* Decides until all episodes are done (true), or something fails or *stop becomes non-zero (false). */
+bool run_decide(run *r, const volatile sig_atomic_t *stop);
 
-/* Writes policy and, if the run is complete, the last checkpoint; closes everything. False if a file is not complete.
- */
-bool experiment_close(experiment *e, bool complete);
+/* Writes policy and, if the run is complete, the last checkpoint; closes everything. False, with the reason in
+ * r->error, if anything has failed so far or a file is not complete. */
+bool run_close(run *r, bool complete);
 
 #endif

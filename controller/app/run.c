@@ -1,0 +1,234 @@
+#include "run.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "convert.h"
+
+/* The settings that decide what is learned, and the robot. */
+static int64_t hash_of(const run *r) {
+    return (int64_t)(settings_hash(&r->settings) * 1099511628211u ^ r->robot.hash);
+}
+
+/* Takes what there is to begin with: nothing, a policy to be used, or a checkpoint to go on from. */
+static bool open_folder(run *r, const command_line *line) {
+    r->evaluating = line->evaluate != NULL;
+    r->resuming = line->resume;
+    if (r->evaluating && !run_folder_read_policy(line->evaluate, &r->policy, r->error)) {
+        return false;
+    }
+    if (!r->resuming) {
+        return run_folder_create(&r->folder, line->out, r->error);
+    }
+    if (!run_folder_resume(&r->folder, line->out, &r->checkpoint, r->error)) {
+        return false;
+    }
+    if (r->checkpoint.settings_hash != r->hash) {
+        fail_with(r->error, "%s: was made with other settings or another robot; it cannot be gone on with", line->out);
+        run_folder_close(&r->folder, r->error);
+        return false;
+    }
+    r->finished = r->checkpoint.episode;
+    return true;
+}
+
+bool run_open(run *r, const command_line *line) {
+    memset(r, 0, sizeof *r);
+    r->settings = line->settings;
+    if (!urdf_read(&r->robot, line->robot, r->error)) {
+        return false;
+    }
+    r->config = convert_config(&r->settings);
+    const lh_error bad = lh_config_validate(&r->config);
+    if (bad != LH_OK) {
+        return fail_with(r->error, "settings: %s", lh_error_text(bad));
+    }
+    r->hash = hash_of(r);
+    if (!open_folder(r, line)) {
+        return false;
+    }
+    char log[RUN_FOLDER_PATH_LENGTH + 32];
+    snprintf(log, sizeof log, "%s/messages.lcmlog", r->folder.path);
+    if (!bus_open(&r->bus, line->lcm_url, r->folder.path[0] == '\0' ? NULL : log, r->resuming, r->error)) {
+        run_folder_close(&r->folder, r->error);
+        return false;
+    }
+    session_init(&r->session, r->settings.link.sender_timeout_s);
+    r->started = bus_now();
+    return true;
+}
+
+/* Takes up what was learned before, if anything. */
+static lh_error restore_learner(run *r) {
+    if (!r->evaluating && !r->resuming) {
+        return LH_OK;
+    }
+    lh_learned learned;
+    const bool fits = r->resuming ? convert_from_checkpoint(&r->checkpoint, &r->controller, &learned)
+                                  : convert_from_policy(&r->policy, &r->controller, &learned);
+    return fits ? lh_controller_restore(&r->controller, &learned, r->finished + 1) : LH_ERROR_NETWORK;
+}
+
+/* The first state tells which actuators obey; now the learner can be set up, or taken up where it was left. */
+static bool begin_learner(run *r, const limphome_robot_state_t *state) {
+    const lh_controlled controlled = convert_controlled(state);
+    r->config.learner.learn = !r->evaluating;
+    r->config.learner.greedy = r->evaluating;
+    lh_error error = lh_controller_init(&r->controller, &r->config, &r->robot.robot, &controlled);
+    if (error == LH_OK && state->num_actuators != r->robot.robot.num_actuators) {
+        error = LH_ERROR_STATE;
+    }
+    if (error == LH_OK) {
+        error = restore_learner(r);
+    }
+    if (error != LH_OK) {
+        return fail_with(r->error, "the plant's robot and ours do not go together: %s", lh_error_text(error));
+    }
+    r->learner_ready = true;
+    return true;
+}
+
+static void send_reset(run *r) {
+    const int32_t episode = r->learner_ready ? r->controller.task.episode.number : r->finished + 1;
+    bus_send_reset(&r->bus, r->session.session, r->session.seq, episode, r->reset_sent);
+    r->reset_sent = true;
+}
+
+/* An episode has ended: a row, a message, and a checkpoint where the plant is about to be reset for one. */
+static void finish_episode(run *r, const lh_summary *summary, const limphome_robot_state_t *state) {
+    r->finished = summary->number;
+    const limphome_episode_t episode =
+        convert_episode(&r->controller, summary, state, r->settings.episode.decision_period_s);
+    bus_send_episode(&r->bus, &episode);
+    run_folder_episode(&r->folder, &episode, r->error);
+    if (!r->evaluating && summary->number % r->config.task.episode.reset_every == 0) {
+        const limphome_checkpoint_t checkpoint = convert_checkpoint(&r->controller, r->finished, r->utime, r->hash);
+        bus_send_policy(&r->bus, &checkpoint.policy);
+        run_folder_checkpoint(&r->folder, &checkpoint, r->error);
+    }
+}
+
+/* Decides on a new state and answers it. The command goes out first: the plant works on while we write the rest. */
+static void decide(run *r, const limphome_robot_state_t *state) {
+    if (!r->learner_ready && !begin_learner(r, state)) {
+        return;
+    }
+    const lh_state sensed = convert_state(state);
+    lh_decision decision = {.velocity = {0}};
+    const lh_error error = lh_controller_step(&r->controller, &sensed, &decision);
+    if (error != LH_OK) { /* hold still; the next state may be better */
+        fprintf(stderr, "state %" PRId64 ": %s; holding still\n", state->seq, lh_error_text(error));
+    }
+    const lh_observed *observed = &decision.observed;
+    const bool ended = observed->outcome != LH_OUTCOME_NONE;
+    const bool last = ended && observed->summary.number >= r->settings.learning.episodes;
+    r->reset_sent = false;
+    if (observed->reset && !last) {
+        session_reset(&r->session);
+        send_reset(r);
+    } else if (!last) {
+        r->command = (limphome_velocity_command_t){.utime = bus_now_us(),
+                                                   .session = state->session,
+                                                   .seq = state->seq,
+                                                   .sender = r->bus.sender,
+                                                   .num_actuators = state->num_actuators};
+        for (int i = 0; i < state->num_actuators; i++) {
+            r->command.velocity[i] = (double)decision.velocity[i];
+        }
+        bus_send_command(&r->bus, &r->command, false);
+    }
+    bus_record_state(&r->bus, state);
+    r->decisions++;
+    r->utime = state->utime;
+    if (error == LH_OK) {
+        const limphome_decision_t message = convert_decision(&r->controller, &decision, state);
+        bus_send_decision(&r->bus, &message);
+    }
+    if (ended) {
+        finish_episode(r, &observed->summary, state);
+    }
+}
+
+static void handle_state(run *r, const limphome_robot_state_t *state) {
+    switch (session_judge(&r->session, state->session, state->seq, state->lockstep != 0, bus_now())) {
+        case SESSION_NEW:
+            decide(r, state);
+            break;
+        case SESSION_REPEATED:
+            r->repeated++;
+            bus_send_command(&r->bus, &r->command, true);
+            break;
+        case SESSION_RESET:
+            if (r->session.restarted) {
+                fprintf(stderr, "the plant has started anew; so does the episode\n");
+                r->session.restarted = false;
+                r->reset_sent = false;
+                if (r->learner_ready) {
+                    lh_controller_begin(&r->controller);
+                }
+            }
+            send_reset(r);
+            break;
+        case SESSION_OLD:
+        case SESSION_OTHER:
+        default:
+            r->stale++;
+            break;
+    }
+}
+
+static void send_status(run *r, int8_t condition) {
+    limphome_status_t status = r->bus.counts;
+    status.utime = bus_now_us();
+    status.process = LIMPHOME_STATUS_T_CONTROLLER;
+    status.condition = condition;
+    status.session = r->session.session;
+    status.seq = r->session.seq;
+    status.wall_time = bus_now() - r->started;
+    status.wait_time = r->bus.wait_time;
+    status.decisions = r->decisions;
+    status.episodes = r->finished;
+    status.rejected_session = r->stale;
+    status.duplicates += r->repeated;
+    convert_limits(&r->controller, &status);
+    bus_send_status(&r->bus, &status);
+}
+
+bool run_decide(run *r, const volatile sig_atomic_t *stop) {
+    while (*stop == 0 && r->error[0] == '\0' && r->finished < r->settings.learning.episodes) {
+        if (!bus_wait(&r->bus, r->settings.link.resend_s)) {
+            return fail_with(r->error, "the bus is broken");
+        }
+        int64_t ended;
+        if (bus_take_fault(&r->bus, &ended)) {
+            session_over(&r->session, ended);
+        }
+        limphome_robot_state_t state;
+        if (bus_take(&r->bus, &state)) {
+            handle_state(r, &state);
+        }
+        if (bus_now() >= r->status_at) {
+            send_status(r, r->learner_ready ? LIMPHOME_STATUS_T_RUNNING : LIMPHOME_STATUS_T_WAITING);
+            r->status_at = bus_now() + 1;
+        }
+    }
+    return r->error[0] == '\0' && r->finished >= r->settings.learning.episodes;
+}
+
+bool run_close(run *r, bool complete) {
+    const bool failed = r->error[0] != '\0';
+    if (r->learner_ready && !r->evaluating) {
+        const limphome_checkpoint_t checkpoint = convert_checkpoint(&r->controller, r->finished, r->utime, r->hash);
+        bus_send_policy(&r->bus, &checkpoint.policy);
+        run_folder_policy(&r->folder, &checkpoint.policy, r->error);
+        /* An interrupted run is gone on with from where the plant was last reset: there alone it is repeatable. */
+        if (complete) {
+            run_folder_checkpoint(&r->folder, &checkpoint, r->error);
+        }
+    }
+    send_status(r, failed ? LIMPHOME_STATUS_T_FAULT : LIMPHOME_STATUS_T_FINISHED);
+    run_folder_close(&r->folder, r->error);
+    bus_close(&r->bus, r->error);
+    return r->error[0] == '\0';
+}
