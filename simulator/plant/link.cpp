@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "limphome_channels.h"
+#include <limphome_channels.h>
 
 namespace limphome {
 
