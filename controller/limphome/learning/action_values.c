@@ -3,9 +3,9 @@
 #include <float.h>
 #include <string.h>
 
-#include "limphome/task/action.h"
 #include "limphome/base/exponential.h"
 #include "limphome/base/lanes.h"
+#include "limphome/task/action.h"
 
 /* Joint actions are computed in blocks of three rows, the levels of actuator 2, by nine columns, the levels of
  * actuators 0 and 1. */
