@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "config_path.h"
+
 enum { MAX_ASSIGNMENTS = 64 };
 
 enum option_code {
@@ -40,12 +42,17 @@ enum { SHARED_OPTIONS = 8 };
 static const char shared_help[] =
     "  --config FILE            settings of the experiment (INI); without it, the paper's\n"
     "  --set section.key=value  one setting, over those of the file; may be repeated\n"
-    "  --robot FILE             the robot (URDF); default config/crawler.urdf\n"
+    "  --robot FILE             the robot (URDF); default crawler.urdf\n"
     "  --lcm-url URL            bus to talk on, such as udpm://239.255.76.67:7667?ttl=0\n"
     "  --print-settings         print all settings as resolved, as an INI file, and exit\n"
     "  --help-settings          print every setting with range, default and meaning, and exit\n"
     "  --version                print the version and exit\n"
     "  --help                   print this and exit\n";
+
+static const char files_help[] =
+    "A FILE named without a folder is looked for in the working directory, then in ../share/limphome/config, seen "
+    "from\n"
+    "the program's folder. The default robot is looked for there first, then in config/ of the working directory.\n";
 
 static const char controller_help[] =
     "  --out DIR                write the run folder: episodes.csv, policy.lcm, checkpoint/, messages.lcmlog\n"
@@ -58,21 +65,22 @@ static const char *program_name(command_line_program program) {
 
 static void print_help(command_line_program program) {
     const bool controller = program == COMMAND_LINE_CONTROLLER;
-    printf("%s: %s\n\nusage: %s [options]\n\n%s%s\nSIGINT and SIGTERM end it cleanly.\n", program_name(program),
+    printf("%s: %s\n\nusage: %s [options]\n\n%s%s\n%sSIGINT and SIGTERM end it cleanly.\n", program_name(program),
            controller ? "learns to move a robot with a failed crawler, or moves it with what was learned"
                       : "simulates the robot behind the messages a real one would speak",
-           program_name(program), shared_help, controller ? controller_help : "");
+           program_name(program), shared_help, controller ? controller_help : "", files_help);
 }
 
 /* Applies the file and the assignments, in this order wherever they stood; says what is wrong on stderr. */
 static command_line_result resolve(settings *s, const char *config, char *const *assignments, int count) {
-    char error[SETTINGS_ERROR_LENGTH];
+    char error[ERROR_LENGTH] = "";
+    char own[CONFIG_PATH_LENGTH];
     *s = settings_default();
-    bool good = config == NULL || settings_read(s, config, error) == 0;
+    bool good = config == NULL || settings_read(s, config_path_find(config, own), error);
     for (int i = 0; i < count && good; i++) {
-        good = settings_set(s, assignments[i], error) == 0;
+        good = settings_set(s, assignments[i], error);
     }
-    good = good && settings_check(s, error) == 0;
+    good = good && settings_check(s, error);
     if (!good) {
         fprintf(stderr, "%s\n", error);
     }
@@ -99,8 +107,7 @@ command_line_result command_line_parse(int argc, char **argv, command_line_progr
         memset(&options[SHARED_OPTIONS], 0, sizeof options[0]);
     }
     memset(line, 0, sizeof *line);
-    line->robot = "config/crawler.urdf";
-    const char *config = NULL;
+    const char *config = NULL, *robot = NULL;
     char *assignments[MAX_ASSIGNMENTS];
     int count = 0;
     bool print_settings = false;
@@ -118,7 +125,7 @@ command_line_result command_line_parse(int argc, char **argv, command_line_progr
                 assignments[count++] = optarg;
                 break;
             case ROBOT:
-                line->robot = optarg;
+                robot = optarg;
                 break;
             case LCM_URL:
                 line->lcm_url = optarg;
@@ -153,6 +160,7 @@ command_line_result command_line_parse(int argc, char **argv, command_line_progr
         fprintf(stderr, "%s: not an option; try %s --help\n", argv[optind], program_name(program));
         return COMMAND_LINE_BAD;
     }
+    line->robot = robot == NULL ? config_path_robot(line->own_robot) : config_path_find(robot, line->own_robot);
     if (resolve(&line->settings, config, assignments, count) != COMMAND_LINE_RUN || check(line) != COMMAND_LINE_RUN) {
         return COMMAND_LINE_BAD;
     }

@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "config_path.h"
 #include "settings.h"
 
 #ifdef __cplusplus
@@ -12,11 +13,12 @@ extern "C" {
 
 typedef struct command_line {
     struct settings settings; /* as resolved: defaults, then --config, then each --set */
-    const char *robot;        /* --robot, a URDF file */
+    const char *robot;        /* --robot, a URDF file; may point to own_robot */
     const char *lcm_url;      /* --lcm-url; NULL: LCM's own default, which follows LCM_DEFAULT_URL */
     const char *out;          /* controller: --out, the run folder, or NULL */
     const char *evaluate;     /* controller: --evaluate, a policy file, or NULL */
     bool resume;              /* controller: --resume */
+    char own_robot[CONFIG_PATH_LENGTH];
 } command_line;
 
 /* Which program asks. */
@@ -28,7 +30,7 @@ typedef enum command_line_result {
     COMMAND_LINE_BAD   /* an error has been printed: exit 2 */
 } command_line_result;
 
-/* Reads argv into `line`, whose strings point into argv. */
+/* Reads argv into `line`, whose strings point into argv or itself: it is not to be copied. */
 command_line_result command_line_parse(int argc, char **argv, command_line_program program, command_line *line);
 
 #ifdef __cplusplus

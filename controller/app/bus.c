@@ -8,6 +8,7 @@
 #include <sys/random.h>
 #include <time.h>
 
+#include "limphome_channels.h"
 #include "limphome_reset_request_t.h"
 #include "messages.h"
 
@@ -84,8 +85,8 @@ static bool join_bus(bus *b, const char *url, char error[ERROR_LENGTH]) {
             error, "%s: cannot join the bus; is the multicast group routed? (ip route add 239.255.76.67/32 dev lo)",
             url == NULL ? "default LCM URL" : url);
     }
-    if (lcm_subscribe(b->lcm, "LIMPHOME_STATE", receive_state, b) == NULL ||
-        lcm_subscribe(b->lcm, "LIMPHOME_STATUS", receive_status, b) == NULL) {
+    if (lcm_subscribe(b->lcm, LIMPHOME_CHANNEL_STATE, receive_state, b) == NULL ||
+        lcm_subscribe(b->lcm, LIMPHOME_CHANNEL_STATUS, receive_status, b) == NULL) {
         return fail_with(error, "the bus does not let us listen; is a firewall in the way?");
     }
     return true;
@@ -170,13 +171,13 @@ static void send(bus *b, const char *channel, unsigned char *bytes, int size, bo
 
 void bus_record_state(bus *b, const limphome_robot_state_t *state) {
     unsigned char bytes[LARGEST_MESSAGE];
-    record(b, "LIMPHOME_STATE", bytes, ENCODE(robot_state_t, state, bytes));
+    record(b, LIMPHOME_CHANNEL_STATE, bytes, ENCODE(robot_state_t, state, bytes));
 }
 
 void bus_send_command(bus *b, const limphome_velocity_command_t *command, bool repeats) {
     unsigned char bytes[LARGEST_MESSAGE];
     b->counts.resent += repeats;
-    send(b, "LIMPHOME_COMMAND", bytes, ENCODE(velocity_command_t, command, bytes), !repeats);
+    send(b, LIMPHOME_CHANNEL_COMMAND, bytes, ENCODE(velocity_command_t, command, bytes), !repeats);
 }
 
 void bus_send_reset(bus *b, int64_t session, int64_t seq, int32_t episode, bool repeats) {
@@ -184,25 +185,25 @@ void bus_send_reset(bus *b, int64_t session, int64_t seq, int32_t episode, bool 
         .utime = bus_now_us(), .session = session, .seq = seq, .sender = b->sender, .episode = episode};
     unsigned char bytes[LARGEST_MESSAGE];
     b->counts.resent += repeats;
-    send(b, "LIMPHOME_RESET", bytes, ENCODE(reset_request_t, &request, bytes), !repeats);
+    send(b, LIMPHOME_CHANNEL_RESET, bytes, ENCODE(reset_request_t, &request, bytes), !repeats);
 }
 
 void bus_send_decision(bus *b, const limphome_decision_t *decision) {
     unsigned char bytes[LARGEST_MESSAGE];
-    send(b, "LIMPHOME_DECISION", bytes, ENCODE(decision_t, decision, bytes), true);
+    send(b, LIMPHOME_CHANNEL_DECISION, bytes, ENCODE(decision_t, decision, bytes), true);
 }
 
 void bus_send_episode(bus *b, const limphome_episode_t *episode) {
     unsigned char bytes[LARGEST_MESSAGE];
-    send(b, "LIMPHOME_EPISODE", bytes, ENCODE(episode_t, episode, bytes), true);
+    send(b, LIMPHOME_CHANNEL_EPISODE, bytes, ENCODE(episode_t, episode, bytes), true);
 }
 
 void bus_send_policy(bus *b, const limphome_policy_t *policy) {
     unsigned char bytes[LARGEST_MESSAGE];
-    send(b, "LIMPHOME_POLICY", bytes, ENCODE(policy_t, policy, bytes), true);
+    send(b, LIMPHOME_CHANNEL_POLICY, bytes, ENCODE(policy_t, policy, bytes), true);
 }
 
 void bus_send_status(bus *b, const limphome_status_t *status) {
     unsigned char bytes[LARGEST_MESSAGE];
-    send(b, "LIMPHOME_STATUS", bytes, ENCODE(status_t, status, bytes), true);
+    send(b, LIMPHOME_CHANNEL_STATUS, bytes, ENCODE(status_t, status, bytes), true);
 }

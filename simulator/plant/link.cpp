@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "limphome_channels.h"
+
 namespace limphome {
 
 double monotonic_now() {
@@ -55,8 +57,8 @@ Link::Link(const std::string &url, const settings &s, int num_actuators)
                                  ": cannot join the bus; is the multicast group routed? "
                                  "(ip route add 239.255.76.67/32 dev lo)");
     }
-    if (lcm_.subscribe("LIMPHOME_COMMAND", &Link::receive_command, this) == nullptr ||
-        lcm_.subscribe("LIMPHOME_RESET", &Link::receive_reset, this) == nullptr) {
+    if (lcm_.subscribe(LIMPHOME_CHANNEL_COMMAND, &Link::receive_command, this) == nullptr ||
+        lcm_.subscribe(LIMPHOME_CHANNEL_RESET, &Link::receive_reset, this) == nullptr) {
         throw std::runtime_error("the bus does not let us listen; is a firewall in the way?");
     }
     begin_session();
@@ -76,7 +78,7 @@ void Link::send_state(robot_state_t state) {
     state.lockstep = lockstep_ ? 1 : 0;
     state_ = state;
     state_sent_ = monotonic_now();
-    lcm_.publish("LIMPHOME_STATE", &state_);
+    lcm_.publish(LIMPHOME_CHANNEL_STATE, &state_);
 }
 
 void Link::resend_state_if_due() {
@@ -85,18 +87,18 @@ void Link::resend_state_if_due() {
     }
     state_sent_ = monotonic_now();
     counts_.resent++;
-    lcm_.publish("LIMPHOME_STATE", &state_);
+    lcm_.publish(LIMPHOME_CHANNEL_STATE, &state_);
 }
 
 void Link::send_truth(ground_truth_t truth) {
     truth.session = state_.session;
     truth.seq = state_.seq;
     truth.utime = state_.utime;
-    lcm_.publish("LIMPHOME_TRUTH", &truth);
+    lcm_.publish(LIMPHOME_CHANNEL_TRUTH, &truth);
 }
 
 void Link::send_status(status_t status) {
-    lcm_.publish("LIMPHOME_STATUS", &status);
+    lcm_.publish(LIMPHOME_CHANNEL_STATUS, &status);
 }
 
 void Link::wait(double timeout) {

@@ -9,6 +9,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "limphome_channels.h"
 #include "limphome_robot_state_t.h"
 #include "limphome_velocity_command_t.h"
 
@@ -25,7 +26,7 @@ static void on_state(const lcm_recv_buf_t *buffer, const char *channel, const li
     (void)buffer;
     (void)channel;
     limphome_velocity_command_t command = {.session = state->session, .seq = state->seq};
-    limphome_velocity_command_t_publish(lcm, "LIMPHOME_COMMAND", &command);
+    limphome_velocity_command_t_publish(lcm, LIMPHOME_CHANNEL_COMMAND, &command);
 }
 
 static void on_command(const lcm_recv_buf_t *buffer, const char *channel, const limphome_velocity_command_t *command,
@@ -38,7 +39,7 @@ static void on_command(const lcm_recv_buf_t *buffer, const char *channel, const 
 static int answer(const char *url) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     lcm_t *lcm = lcm_create(url);
-    if (lcm == NULL || limphome_robot_state_t_subscribe(lcm, "LIMPHOME_STATE", on_state, lcm) == NULL) {
+    if (lcm == NULL || limphome_robot_state_t_subscribe(lcm, LIMPHOME_CHANNEL_STATE, on_state, lcm) == NULL) {
         return EXIT_FAILURE;
     }
     while (lcm_handle(lcm) == 0) {
@@ -51,7 +52,7 @@ static double round_trip(lcm_t *lcm, int64_t seq, const int64_t *answered) {
     limphome_robot_state_t state = {.seq = seq};
     const double start = now();
     while (*answered != seq) {
-        limphome_robot_state_t_publish(lcm, "LIMPHOME_STATE", &state);
+        limphome_robot_state_t_publish(lcm, LIMPHOME_CHANNEL_STATE, &state);
         while (*answered != seq && lcm_handle_timeout(lcm, REPEAT_MS) > 0) {
         }
     }
@@ -66,7 +67,8 @@ static int ascending(const void *a, const void *b) {
 static int measure(const char *url) {
     int64_t answered = 0;
     lcm_t *lcm = lcm_create(url);
-    if (lcm == NULL || limphome_velocity_command_t_subscribe(lcm, "LIMPHOME_COMMAND", on_command, &answered) == NULL) {
+    if (lcm == NULL ||
+        limphome_velocity_command_t_subscribe(lcm, LIMPHOME_CHANNEL_COMMAND, on_command, &answered) == NULL) {
         fprintf(stderr, "no LCM on %s\n", url);
         return EXIT_FAILURE;
     }

@@ -9,7 +9,7 @@ for program in arm-none-eabi-gcc qemu-system-arm; do
         exit 77
     fi
 done
-cmake -S "$root" -B "$3" -G Ninja --toolchain "$root/cmake/$1.cmake" -DCMAKE_BUILD_TYPE="$2" \
+cmake -S "$root" -B "$3" -G Ninja --toolchain "$root/cmake/$1.cmake" -DCMAKE_BUILD_TYPE="$2" -DLIMPHOME_WERROR=ON \
     -DLIMPHOME_HOST_RESULTS="$4" -Wno-dev
 cmake --build "$3"
 ctest --test-dir "$3" --verbose

@@ -10,7 +10,7 @@ add_executable(elementary_bits elementary.c host.c)
 target_link_libraries(elementary_bits PRIVATE limphome limphome_warnings)
 set_target_properties(record replay elementary_bits PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${results})
 
-add_test(NAME embedded.host COMMAND ${sources}/host.sh ${CMAKE_BINARY_DIR})
+add_test(NAME embedded.host COMMAND ${sources}/host.sh ${PROJECT_BINARY_DIR})
 set_tests_properties(embedded.host PROPERTIES LABELS embedded FIXTURES_SETUP embedded.host TIMEOUT 600)
 
 # one for speed, one for size; board.sh takes any pair

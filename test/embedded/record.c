@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "convert.h"
+#include "limphome_channels.h"
 #include "recording.h"
 #include "settings.h"
 #include "urdf.h"
@@ -31,7 +32,7 @@ static recording_header make_header(const char *run) {
     char error[ERROR_LENGTH] = "";
     settings s = settings_default();
     snprintf(path, sizeof path, "%s/config.ini", run);
-    if (settings_read(&s, path, error) != 0) {
+    if (!settings_read(&s, path, error)) {
         fprintf(stderr, "%s\n", error);
         exit(1);
     }
@@ -116,8 +117,8 @@ int main(int argc, char **argv) {
     for (int i = 0; i < RECORDING_DECISIONS; i++) {
         limphome_robot_state_t state;
         limphome_decision_t decision;
-        if (!next(log, "LIMPHOME_STATE", decode_state, &state) ||
-            !next(log, "LIMPHOME_DECISION", decode_decision, &decision) || decision.session != state.session ||
+        if (!next(log, LIMPHOME_CHANNEL_STATE, decode_state, &state) ||
+            !next(log, LIMPHOME_CHANNEL_DECISION, decode_decision, &decision) || decision.session != state.session ||
             decision.seq != state.seq) {
             fprintf(stderr, "%s: %d decisions are needed, and the state before each\n", path, RECORDING_DECISIONS);
             return 1;

@@ -13,8 +13,8 @@ static void expect_same_when_written(const settings *s) {
     settings_write(s, out);
     fclose(out);
     settings again = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    FUZZ_EXPECT(settings_read(&again, fuzz_file((const uint8_t *)text, size), error) == 0);
+    char error[ERROR_LENGTH] = "";
+    FUZZ_EXPECT(settings_read(&again, fuzz_file((const uint8_t *)text, size), error));
     FUZZ_EXPECT(settings_hash(s) == settings_hash(&again));
     free(text);
 }
@@ -25,14 +25,14 @@ static void set_first_line(const uint8_t *data, size_t size) {
     memcpy(assignment, data, size < sizeof assignment ? size : sizeof assignment - 1);
     assignment[strcspn(assignment, "\n")] = '\0';
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    FUZZ_EXPECT(settings_set(&s, assignment, error) == 0 || error[0] != '\0');
+    char error[ERROR_LENGTH] = "";
+    FUZZ_EXPECT(settings_set(&s, assignment, error) || error[0] != '\0');
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    if (settings_read(&s, fuzz_file(data, size), error) == 0) {
+    char error[ERROR_LENGTH] = "";
+    if (settings_read(&s, fuzz_file(data, size), error)) {
         settings_check(&s, error);
         expect_same_when_written(&s);
     } else {

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""check_stack.py BOUND OBJECT...: the worst-case stack of every function of the library, from the call graphs and frames
-that gcc writes beside each object with -fcallgraph-info=su. Fails on recursion, on a call through a pointer, on a frame whose size is not
-known, on a call from outside the library but to copy or fill memory, and where BOUND bytes are not enough."""
+"""check_stack.py BOUND OBJECT...: the worst-case stack of every function of the library, from the call graphs and
+frames that gcc writes beside each object with -fcallgraph-info=su. Fails on recursion, on a call through a pointer, on
+a frame whose size is not known, on a call from outside the library but to copy or fill memory, and where BOUND bytes
+are not enough."""
 
 import re
 import sys
@@ -57,8 +58,9 @@ def main():
     if not any(name == "lh_controller_step" for name in frames):
         raise Refused("no call graph of lh_controller_step")
     known = {}
-    worst = sorted(((*deepest(name, frames, calls, known), name) for name in frames if name.startswith("lh_")),
-                   reverse=True)
+    worst = sorted(
+        ((*deepest(name, frames, calls, known), name) for name in frames if name.startswith("lh_")), reverse=True
+    )
     for size, chain, name in worst[:5]:
         print(f"{size + ALIGNMENT:6} bytes  {name}: {' > '.join(chain)}")
     print(f"{len(frames)} functions, no recursion; worst {worst[0][0] + ALIGNMENT} of {bound} bytes")

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Writes reference.h: the paper's equations in NumPy, double precision, for the tests of liblimphome.
+"""Prints reference.h: the paper's equations in 40 digits, for the tests of liblimphome.
 
-    python3 reference.py
+    python3 reference.py > reference.h
 
 It shares nothing with the library but the equations: 4x4 matrices for quaternions, a brute-force rotation for the
 formula of the stability margin, central differences for the gradient. Inputs are rounded to single precision before
-use, so that both sides see the same numbers. The seed is fixed; the output is committed.
+use, so that both sides see the same numbers. The seed is fixed; the output is committed, and scripts/test makes it again.
+NumPy only draws and arranges the numbers: its exp, sin and linear algebra differ in the last bits, and eigenvectors in
+sign, from processor to processor. mpmath's do not.
 """
 
 import itertools
@@ -13,16 +15,23 @@ import pathlib
 import textwrap
 import xml.etree.ElementTree
 
+import mpmath
 import numpy as np
+from mpmath import mpf
 
 HERE = pathlib.Path(__file__).resolve().parent
+mpmath.mp.dps = 40
 rng = np.random.default_rng(20190918)
 lines = []
 
 
+exact = np.vectorize(mpf, otypes=[object])
+exp = np.vectorize(mpmath.exp, otypes=[object])
+
+
 def single(values):
-    """Rounded to single precision, held in double."""
-    return np.asarray(values, dtype=np.float32).astype(np.float64)
+    """Rounded to single precision, held in 40 digits."""
+    return exact(np.asarray(values, dtype=np.float32).astype(np.float64))[()]
 
 
 def emit(kind, name, values, comment):
@@ -31,9 +40,9 @@ def emit(kind, name, values, comment):
     form = {"float": "{:.9g}", "double": "{:.17g}"}.get(kind, "{}")
 
     def text(v):
-        if v.ndim:
+        if isinstance(v, np.ndarray):
             return "{" + ", ".join(text(x) for x in v) + "}"
-        number = form.format(v.item())
+        number = form.format(float(v) if isinstance(v, mpf) else v)
         if kind == "float":
             number += ("" if any(c in number for c in ".e") else ".") + "f"
         return number + ("u" if kind == "uint32_t" else "")
@@ -76,24 +85,31 @@ def xoshiro(seed):
 
 def random_numbers():
     seeds = [0, 1, 12345, 2**64 - 1]
-    lines.append("/* seeds of random_output */\nstatic const uint64_t random_seed[4] = {"
-                 + ", ".join(f"{s}u" for s in seeds) + "};\n")
-    emit("uint32_t", "random_output", [list(itertools.islice(xoshiro(s), 8)) for s in seeds],
-         "first numbers of xoshiro128** seeded through splitmix64")
+    lines.append(
+        "/* seeds of random_output */\nstatic const uint64_t random_seed[4] = {"
+        + ", ".join(f"{s}u" for s in seeds)
+        + "};\n"
+    )
+    emit(
+        "uint32_t",
+        "random_output",
+        [list(itertools.islice(xoshiro(s), 8)) for s in seeds],
+        "first numbers of xoshiro128** seeded through splitmix64",
+    )
 
 
 # --- selection (3)(4) ---
 
 
 def boltzmann(q, temperature):
-    e = np.exp((q - q.max()) / temperature)
+    e = exp((q - q.max()) / temperature)
     return e / e.sum()
 
 
 def selection():
     episodes = np.array([1, 2, 10, 100, 2500])
     emit("int32_t", "temperature_episode", episodes, "t of (4)")
-    emit("double", "temperature", 1 / np.log(episodes + 0.1), "T of (4)")
+    emit("double", "temperature", [1 / mpmath.log(int(t) + mpf("0.1")) for t in episodes], "T of (4)")
     q = single(rng.normal(0, 2, (4, 9)))
     t = single([10.5, 1.0, 0.128, 0.01])
     emit("float", "selection_q", q, "Q(s, a)")
@@ -108,7 +124,7 @@ RATES = single([0.1, 0.01, 0.1])  # alpha_w, alpha_sigma, alpha_mu
 
 
 def activations(w, sigma, mu, x):
-    return np.exp(-((x - mu) ** 2).sum(1) / sigma**2)
+    return exp(-((x - mu) ** 2).sum(1) / sigma**2)
 
 
 def value(w, sigma, mu, x):
@@ -134,8 +150,8 @@ def learn_exact(w, sigma, mu, x, alpha, delta):
         return 0.5 * (target - value(a, b, c.reshape(UNITS, INPUTS), x)) ** 2
 
     start = np.concatenate([w, sigma, mu.ravel()])
-    h = 1e-5
-    slope = np.array([(error(start + h * e) - error(start - h * e)) / (2 * h) for e in np.eye(len(start))])
+    h = mpf("1e-5")
+    slope = np.array([(error(start + h * e) - error(start - h * e)) / (2 * h) for e in np.eye(len(start), dtype=int)])
     rate = np.repeat(RATES, [UNITS, UNITS, UNITS * INPUTS])
     a, b, c = np.split(start - rate * slope, [UNITS, 2 * UNITS])
     return a, b, c.reshape(UNITS, INPUTS)
@@ -156,8 +172,10 @@ def network():
     emit("double", "network_y", [value(w, sigma, mu, a) for a in x], "y of (13)")
     emit("float", "learn_alpha", alpha, "alpha of (2)")
     emit("float", "learn_delta", delta, "delta of (1)")
-    for name, rule, text in (("printed", learn_printed, "(19)-(21) as printed"),
-                             ("exact", learn_exact, "(16)-(18) with the derivative of (15) by central differences")):
+    for name, rule, text in (
+        ("printed", learn_printed, "(19)-(21) as printed"),
+        ("exact", learn_exact, "(16)-(18) with the derivative of (15) by central differences"),
+    ):
         results = [rule(w, sigma, mu, *case) for case in zip(x, alpha, delta)]
         for part, parameter in enumerate(("weight", "width", "centre")):
             emit("double", f"{name}_{parameter}", [r[part] for r in results], f"after one step from each x: {text}")
@@ -171,7 +189,7 @@ def learner():
     units, inputs = 6, states + controlled
     draw = (n / 2**32 for n in xoshiro(7))
     centre = [np.floor(next(draw) * 2**24) / 2**24 for _ in range(units * inputs)]
-    w, sigma, mu = np.full(units, 0.5), np.ones(units), np.reshape(centre, (units, inputs))
+    w, sigma, mu = exact(np.full(units, 0.5)), exact(np.ones(units)), exact(np.reshape(centre, (units, inputs)))
     alpha, gamma = single(0.5), single(0.9)
     s = single(rng.uniform(0, 1, (steps + 1, states)))
     action = rng.integers(0, 3**controlled, steps)
@@ -179,7 +197,7 @@ def learner():
     terminal = (np.arange(steps) % 5 == 4).astype(int)
 
     def joint(state, a):
-        return np.concatenate([state, [(a % 3) / 2, (a // 3) / 2]])
+        return np.concatenate([state, [mpf(a % 3) / 2, mpf(a // 3) / 2]])
 
     deltas, maxima = [], []
     for k in range(steps):
@@ -189,8 +207,10 @@ def learner():
         w, sigma, mu = learn_printed(w, sigma, mu, x, alpha, delta)
         deltas.append(delta)
         maxima.append(q_next)
-    lines.append(f"enum {{ LEARNER_STEPS = {steps}, LEARNER_STATES = {states}, LEARNER_CONTROLLED = {controlled}, "
-                 f"LEARNER_UNITS = {units} }};\n")
+    lines.append(
+        f"enum {{ LEARNER_STEPS = {steps}, LEARNER_STATES = {states}, LEARNER_CONTROLLED = {controlled}, "
+        f"LEARNER_UNITS = {units} }};\n"
+    )
     emit("float", "learner_state", s, "state inputs before each step, and after the last")
     emit("int32_t", "learner_action", action, "joint action of each step")
     emit("float", "learner_reward", reward, "r of each step")
@@ -206,33 +226,41 @@ def learner():
 def rotation(axis, angle):
     x, y, z = axis
     k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
+    return np.eye(3, dtype=int) + mpmath.sin(angle) * k + (1 - mpmath.cos(angle)) * k @ k
 
 
 def attitude(yaw, pitch, roll):
     return rotation((0, 0, 1), yaw) @ rotation((0, 1, 0), pitch) @ rotation((1, 0, 0), roll)
 
 
-def quaternion(r):
-    """The eigenvector of Bar-Itzhack's matrix for its largest eigenvalue, as w, x, y, z."""
-    k = np.array([
-        [r[0, 0] - r[1, 1] - r[2, 2], r[1, 0] + r[0, 1], r[2, 0] + r[0, 2], r[2, 1] - r[1, 2]],
-        [r[1, 0] + r[0, 1], r[1, 1] - r[0, 0] - r[2, 2], r[2, 1] + r[1, 2], r[0, 2] - r[2, 0]],
-        [r[2, 0] + r[0, 2], r[2, 1] + r[1, 2], r[2, 2] - r[0, 0] - r[1, 1], r[1, 0] - r[0, 1]],
-        [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], np.trace(r)]])
-    x, y, z, w = np.linalg.eigh(k)[1][:, -1]
-    return np.array([w, x, y, z])
+def quaternion(r, sign=1):
+    """The eigenvector of Bar-Itzhack's matrix for its largest eigenvalue, as w, x, y, z, with w of the given sign."""
+    k = mpmath.matrix(
+        [
+            [r[0, 0] - r[1, 1] - r[2, 2], r[1, 0] + r[0, 1], r[2, 0] + r[0, 2], r[2, 1] - r[1, 2]],
+            [r[1, 0] + r[0, 1], r[1, 1] - r[0, 0] - r[2, 2], r[2, 1] + r[1, 2], r[0, 2] - r[2, 0]],
+            [r[2, 0] + r[0, 2], r[2, 1] + r[1, 2], r[2, 2] - r[0, 0] - r[1, 1], r[1, 0] - r[0, 1]],
+            [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], np.trace(r)],
+        ]
+    )
+    x, y, z, w = mpmath.eigsy(k)[1][:, 3]
+    return sign * mpmath.sign(w) * np.array([w, x, y, z])
+
+
+def quaternions(matrices):
+    """Every second one with negative w: it is the same attitude."""
+    return [quaternion(r, (-1) ** k) for k, r in enumerate(matrices)]
 
 
 def rotations():
-    angles = rng.uniform((-3.1, -1.5, -3.1), (3.1, 1.5, 3.1), (8, 3))
-    angles[0] = 0
-    angles[1] = (0.3, 1.55, -0.2)
+    angles = single(rng.uniform((-3.1, -1.5, -3.1), (3.1, 1.5, 3.1), (8, 3)))
+    angles[0] = single((0, 0, 0))
+    angles[1] = single((0.3, 1.55, -0.2))
     matrices = [attitude(*a) for a in angles]
     v = single(rng.normal(0, 1, 3))
     emit("double", "rotation_angles", angles, "yaw, pitch, roll [rad]")
-    emit("float", "rotation_quaternion", [quaternion(r) for r in matrices], "w, x, y, z")
-    emit("double", "rotation_tilt", [np.arccos(r[2, 2]) for r in matrices], "angle between the z axes [rad]")
+    emit("float", "rotation_quaternion", quaternions(matrices), "w, x, y, z")
+    emit("double", "rotation_tilt", [mpmath.acos(r[2, 2]) for r in matrices], "angle between the z axes [rad]")
     emit("float", "rotation_vector", v, "to be turned")
     emit("double", "rotation_turned", [r @ v for r in matrices], "the vector, turned")
 
@@ -242,13 +270,15 @@ def rotations():
 
 def tipping_rise(a, b, g):
     """How far g rises at most when it is turned about the line a, b: tried at many angles, then refined."""
-    k = (b - a) / np.linalg.norm(b - a)
-    height = lambda angle: (a + rotation(k, angle) @ (g - a))[2]
-    best, width = 0.0, np.pi
-    for _ in range(12):
-        angles = best + np.linspace(-width, width, 201)
-        best = angles[np.argmax([height(t) for t in angles])]
-        width /= 40
+    k = (b - a) / mpmath.sqrt((b - a) @ (b - a))
+
+    def height(angle):
+        return (a + rotation(k, angle) @ (g - a))[2]
+
+    best, width = mpf(0), mpmath.pi
+    for _ in range(20):
+        best = max((best + width * n / 6 for n in range(-6, 7)), key=height)
+        width /= 4
     return height(best) - g[2]
 
 
@@ -269,7 +299,7 @@ def margin(points, g):
 def stability():
     edges = single(rng.normal(0, 1, (16, 3, 3)))
     edges[8:12, 2, 2] -= 3  # centre of mass far below the edge
-    edges[12:, 1, :2] = edges[12:, 0, :2] + 0.05 * edges[12:, 1, :2]  # steep
+    edges[12:, 1, :2] = edges[12:, 0, :2] + mpf("0.05") * edges[12:, 1, :2]  # steep
     edges = single(edges)
     emit("float", "edge", edges, "a, b, centre of mass")
     emit("double", "edge_rise", [tipping_rise(*e) for e in edges], "S_i of (10), by turning about a->b")
@@ -285,11 +315,11 @@ def stability():
 
 
 def numbers(element, key):
-    return np.array([float(v) for v in element.get(key).split()])
+    return exact(element.get(key).split())
 
 
 def transform(r, p):
-    t = np.eye(4)
+    t = exact(np.eye(4))
     t[:3, :3], t[:3, 3] = r, p
     return t
 
@@ -304,45 +334,51 @@ class Crawler:
         """World transforms of all links; the URDF lists parents first."""
         frames = {"base": body}
         for joint in self.joints:
-            turn = np.eye(3)
+            turn = np.eye(3, dtype=int)
             if joint.get("name") in self.arms:
                 turn = rotation(numbers(joint.find("axis"), "xyz"), angles[self.arms.index(joint.get("name"))])
-            frames[joint.find("child").get("link")] = (frames[joint.find("parent").get("link")]
-                                                       @ transform(np.eye(3), numbers(joint.find("origin"), "xyz"))
-                                                       @ transform(turn, np.zeros(3)))
+            frames[joint.find("child").get("link")] = (
+                frames[joint.find("parent").get("link")]
+                @ transform(np.eye(3, dtype=int), numbers(joint.find("origin"), "xyz"))
+                @ transform(turn, 0)
+            )
         return frames
 
     def posture(self, body, angles):
         frames = self.frames(body, angles)
-        total, moment = 0.0, np.zeros(3)
+        total, moment = 0, exact(np.zeros(3))
         for link in self.root.findall("link"):
             inertial = link.find("inertial")
-            mass = float(inertial.find("mass").get("value"))
+            mass = mpf(inertial.find("mass").get("value"))
             origin = inertial.find("origin")
-            centre = np.zeros(3) if origin is None else numbers(origin, "xyz")
+            centre = exact(np.zeros(3)) if origin is None else numbers(origin, "xyz")
             moment += mass * (frames[link.get("name")] @ [*centre, 1])[:3]
             total += mass
         marks = self.root.find("limphome")
-        supports = [(frames[s.get("link")] @ [*numbers(s, "xyz"), 1])[:3]
-                    for s in [*marks.findall("support"), marks.find("tip")]]
-        supports[-1][2] -= float(marks.find("tip").get("radius"))
+        supports = [
+            (frames[s.get("link")] @ [*numbers(s, "xyz"), 1])[:3]
+            for s in [*marks.findall("support"), marks.find("tip")]
+        ]
+        supports[-1][2] -= mpf(marks.find("tip").get("radius"))
         return moment / total, np.array(supports)
 
 
 def kinematics():
     crawler = Crawler(HERE / "../../config/crawler.urdf")
     angles = single(rng.uniform((-2.6, -0.6, -2.4), (2.6, 1.2, 0), (8, 3)))
-    turns = rng.uniform((-3, -0.5, -0.6), (3, 0.5, 0.6), (8, 3))
-    angles[0], turns[0] = single((0, 0.6, -1.5)), 0  # initial pose
-    angles[1], turns[1] = single((1.2, -0.4, -0.9)), (0.4, 0, -0.35)
-    quaternions = single([quaternion(attitude(*t)) for t in turns])
-    postures = [crawler.posture(transform(attitude(*t), np.zeros(3)), a) for t, a in zip(turns, angles)]
-    emit("float", "posture_attitude", quaternions, "w, x, y, z, body to world")
+    turns = single(rng.uniform((-3, -0.5, -0.6), (3, 0.5, 0.6), (8, 3)))
+    angles[0], turns[0] = single((0, 0.6, -1.5)), single((0, 0, 0))  # initial pose
+    angles[1], turns[1] = single((1.2, -0.4, -0.9)), single((0.4, 0, -0.35))
+    attitudes = [attitude(*t) for t in turns]
+    postures = [crawler.posture(transform(r, 0), a) for r, a in zip(attitudes, angles)]
+    emit("float", "posture_attitude", quaternions(attitudes), "w, x, y, z, body to world")
     emit("float", "posture_angles", angles, "swing, boom, arm [rad]")
     emit("double", "posture_mass", [p[0] for p in postures], "centre of mass, body origin, world axes [m]")
     emit("double", "posture_supports", [p[1] for p in postures], "four of the crawlers, then the tip's lowest [m]")
     centre, supports = postures[0]
-    emit("double", "initial_margin", [margin(list(supports[:4]), centre)], "S_NE of the initial pose, tip in the air [m]")
+    emit(
+        "double", "initial_margin", [margin(list(supports[:4]), centre)], "S_NE of the initial pose, tip in the air [m]"
+    )
 
 
 # --- rewards (5)-(9)(12) ---
@@ -353,14 +389,14 @@ def rewards():
     after = single(before + rng.normal(0, 0.2, (8, 3)))
     before[0, 2], after[0, 2] = single(3.1), single(-3.1)  # heading passes through pi
     direction = single(rng.uniform(-3.1, 3.1, 8))
-    motion = np.empty((8, 2))
+    motion = np.empty((8, 2), dtype=object)
     for k in range(8):
         p = after[k, :2] - before[k, :2]
-        e = np.array([np.cos(before[k, 2]), np.sin(before[k, 2])])
-        theta = np.arctan2(cross2(e, p), e @ p)
-        d1, d2 = np.hypot(*p) * np.cos(theta), np.hypot(*p) * np.sin(theta)
+        e = np.array([mpmath.cos(before[k, 2]), mpmath.sin(before[k, 2])])
+        theta = mpmath.atan2(cross2(e, p), e @ p)
+        d1, d2 = mpmath.hypot(*p) * mpmath.cos(theta), mpmath.hypot(*p) * mpmath.sin(theta)
         for reading, origin in enumerate((before[k, 2], direction[k])):
-            phi = np.angle(np.exp(1j * (after[k, 2] - origin)))
+            phi = mpmath.arg(mpmath.expj(after[k, 2] - origin))
             motion[k, reading] = 8 * d1 - 2 * abs(d2) - 10 * abs(phi)
     emit("float", "motion_before", before, "x, y, heading")
     emit("float", "motion_after", after, "x, y, heading")
@@ -376,6 +412,8 @@ rotations()
 stability()
 kinematics()
 rewards()
-head = ("/* Written by reference.py; do not edit. */\n/* clang-format off */\n"
-        "#ifndef LIMPHOME_TEST_REFERENCE_H\n#define LIMPHOME_TEST_REFERENCE_H\n\n#include <stdint.h>\n\n")
-(HERE / "reference.h").write_text(head + "\n".join(lines) + "\n#endif\n")
+head = (
+    "/* Written by reference.py; do not edit. */\n/* clang-format off */\n"
+    "#ifndef LIMPHOME_TEST_REFERENCE_H\n#define LIMPHOME_TEST_REFERENCE_H\n\n#include <stdint.h>\n\n"
+)
+print(head + "\n".join(lines) + "\n#endif")

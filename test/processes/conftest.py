@@ -2,32 +2,41 @@
 
 import os
 import subprocess
-import sys
 import time
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-BUILD = Path(os.environ.get("LIMPHOME_BUILD", ROOT / "build"))
-sys.path[:0] = [str(ROOT / "scripts"), str(BUILD / "python")]
-
 SMOKE = ROOT / "config" / "smoke.ini"
 TIME_LIMIT_S = 300  # against a hang only; nothing here measures time
 
 
 def run_script(name, *arguments, check=True, **options):
     """Runs scripts/NAME to its end; with `check`, it must succeed."""
-    result = subprocess.run([ROOT / "scripts" / name, *map(str, arguments)], capture_output=True, text=True,
-                            timeout=TIME_LIMIT_S, stdin=subprocess.DEVNULL, **options)
+    result = subprocess.run(
+        [ROOT / "scripts" / name, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=TIME_LIMIT_S,
+        stdin=subprocess.DEVNULL,
+        **options,
+    )
     assert not check or result.returncode == 0, f"{name}: exit {result.returncode}\n{result.stderr}\n{result.stdout}"
     return result
 
 
 def start_script(name, *arguments, **options):
     """Starts scripts/NAME in a process group of its own, as a shell does; returns the Popen."""
-    return subprocess.Popen([ROOT / "scripts" / name, *map(str, arguments)], stdin=subprocess.DEVNULL, text=True,
-                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True, **options)
+    return subprocess.Popen(
+        [ROOT / "scripts" / name, *map(str, arguments)],
+        stdin=subprocess.DEVNULL,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+        **options,
+    )
 
 
 def train(out, *arguments, check=True):
@@ -49,8 +58,11 @@ def processes_that_mention(text):
     found = []
     for entry in Path("/proc").iterdir():
         try:
-            if entry.name.isdigit() and int(entry.name) != os.getpid() and \
-                    str(text).encode() in (entry / "cmdline").read_bytes():
+            if (
+                entry.name.isdigit()
+                and int(entry.name) != os.getpid()
+                and str(text).encode() in (entry / "cmdline").read_bytes()
+            ):
                 found.append(int(entry.name))
         except (FileNotFoundError, ProcessLookupError):
             continue
@@ -60,7 +72,8 @@ def processes_that_mention(text):
 @pytest.fixture(scope="session")
 def smoke_run(tmp_path_factory):
     """Run folder of 30 episodes, seed 1."""
-    from tools.runfolder import RunFolder
+    from limphome_lab.runfolder import RunFolder
+
     out = tmp_path_factory.mktemp("smoke") / "run"
     train(out)
     return RunFolder(out)

@@ -3,8 +3,8 @@
 Starts COMMAND, a limphome-controller, and answers it in lockstep until it ends. FAULTS is JSON with the probabilities
 of what befalls a message: drop, duplicate, reorder (an earlier state comes again), garbage (a broken copy comes too);
 and `seed`. Prints JSON: the controller's exit code, how many states it answered, how often a command for one
-(session, seq) differed from an earlier one, the episodes that resets were for, how often each fault was done, and how much of the garbage the controller
-must have met: what went out before a state that it answered.
+(session, seq) differed from an earlier one, the episodes that resets were for, how often each fault was done, and how
+much of the garbage the controller must have met: what went out before a state that it answered.
 
 The robot is a point that the right crawler pushes and the swing joint steers.
 """
@@ -19,13 +19,16 @@ from collections import Counter
 import lcm
 
 from limphome import reset_request_t, robot_state_t, velocity_command_t
+from limphome_lab.channels import COMMAND, RESET, STATE
 
+LEFT, RIGHT, SWING, BOOM, ARM = range(5)  # actuators
+JOINTS = (SWING, BOOM, ARM)
 PERIOD_S = 0.5
 RESEND_MS = 3
 SLOPE = 0.15  # carries the robot ahead [m/s], so that some episodes reach the goal
-HOME = [0.0, 0.0, 0.0, 0.6, -1.5, 0.0, 0.0, 0.0]
-JOINT_LOW = [0, 0, -2.6, -0.6, -2.4, 0, 0, 0]
-JOINT_HIGH = [0, 0, 2.6, 1.2, 0.0, 0, 0, 0]
+HOME = [0.0, 0.0, 0.0, 0.6, -1.5]  # of the five actuators, as all lists here
+JOINT_LOW = [0, 0, -2.6, -0.6, -2.4]
+JOINT_HIGH = [0, 0, 2.6, 1.2, 0.0]
 
 
 class FakePlant:
@@ -34,8 +37,8 @@ class FakePlant:
         self.faults = faults
         self.done = Counter()
         self.lcm = lcm.LCM(url)
-        self.lcm.subscribe("LIMPHOME_COMMAND", self._on_command)
-        self.lcm.subscribe("LIMPHOME_RESET", self._on_reset)
+        self.lcm.subscribe(COMMAND, self._on_command)
+        self.lcm.subscribe(RESET, self._on_reset)
         self.answers = {}  # (session, seq) -> velocities of the first command
         self.differing = 0
         self.earlier = b""
@@ -57,21 +60,21 @@ class FakePlant:
     def state(self):
         state = robot_state_t()
         state.utime, state.session, state.seq, state.lockstep = self.utime, self.session, self.seq, 1
-        state.num_actuators = 5
+        state.num_actuators = len(self.angles)
         state.position = [self.x, self.y, 0.0]
         state.orientation = [math.cos(self.heading / 2), 0.0, 0.0, math.sin(self.heading / 2)]
-        state.actuator_position = list(self.angles)
-        state.actuator_effort = [0.0, 500.0 * math.sin(self.seq), 0, 0, 0, 0, 0, 0]
-        state.actuator_health = [1, 0, 0, 0, 0, 0, 0, 0]
+        state.actuator_position[: len(self.angles)] = self.angles
+        state.actuator_effort[RIGHT] = 500.0 * math.sin(self.seq)
+        state.actuator_health[LEFT] = 1
         return state
 
     def advance(self, velocity):
-        for joint in (2, 3, 4):
+        for joint in JOINTS:
             angle = self.angles[joint] + velocity[joint] * PERIOD_S
             self.angles[joint] = min(max(angle, JOINT_LOW[joint]), JOINT_HIGH[joint])
-        self.heading += 0.2 * velocity[1] * PERIOD_S * (1.0 - self.angles[2])
-        self.x += (velocity[1] + SLOPE) * PERIOD_S * math.cos(self.heading)
-        self.y += (velocity[1] + SLOPE) * PERIOD_S * math.sin(self.heading)
+        self.heading += 0.2 * velocity[RIGHT] * PERIOD_S * (1.0 - self.angles[SWING])
+        self.x += (velocity[RIGHT] + SLOPE) * PERIOD_S * math.cos(self.heading)
+        self.y += (velocity[RIGHT] + SLOPE) * PERIOD_S * math.sin(self.heading)
         self.utime += round(PERIOD_S * 1e6)
         self.seq += 1
         self.command = None
@@ -86,20 +89,20 @@ class FakePlant:
         state = self.state()
         encoded = state.encode()
         if self.heard and self.befalls("garbage"):
-            self.lcm.publish("LIMPHOME_STATE", encoded[:-3])
-            self.lcm.publish("LIMPHOME_STATE", encoded + b"\0")
+            self.lcm.publish(STATE, encoded[:-3])
+            self.lcm.publish(STATE, encoded + b"\0")
             state.position = [math.nan, 0.0, 0.0]
-            self.lcm.publish("LIMPHOME_STATE", state.encode())
+            self.lcm.publish(STATE, state.encode())
         if not self.published:
             self.garbage_before_state = self.done["garbage"]
             self.published = True
         if self.befalls("drop"):
             return
-        self.lcm.publish("LIMPHOME_STATE", encoded)
+        self.lcm.publish(STATE, encoded)
         if self.befalls("duplicate"):
-            self.lcm.publish("LIMPHOME_STATE", encoded)
+            self.lcm.publish(STATE, encoded)
         if self.earlier and self.befalls("reorder"):
-            self.lcm.publish("LIMPHOME_STATE", self.earlier)
+            self.lcm.publish(STATE, self.earlier)
         if self.befalls("keep"):
             self.earlier = encoded
 
@@ -137,8 +140,18 @@ def main():
         plant.serve(controller)
     finally:
         controller.kill()
-    print(json.dumps({"exit_code": controller.wait(), "answered": len(plant.answers), "differing": plant.differing,
-                      "done": plant.done, "begun": plant.begun, "garbage_met": plant.garbage_met}))
+    print(
+        json.dumps(
+            {
+                "exit_code": controller.wait(),
+                "answered": len(plant.answers),
+                "differing": plant.differing,
+                "done": plant.done,
+                "begun": plant.begun,
+                "garbage_met": plant.garbage_met,
+            }
+        )
+    )
 
 
 if __name__ == "__main__":

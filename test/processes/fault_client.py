@@ -13,13 +13,14 @@ import sys
 import lcm
 
 from limphome import robot_state_t, status_t, velocity_command_t
+from limphome_lab.channels import COMMAND, STATE, STATUS
 
 
 class Client:
     def __init__(self, url, velocities):
         self.lcm = lcm.LCM(url)
-        self.lcm.subscribe("LIMPHOME_STATE", self._on_state)
-        self.lcm.subscribe("LIMPHOME_STATUS", self._on_status)
+        self.lcm.subscribe(STATE, self._on_state)
+        self.lcm.subscribe(STATUS, self._on_status)
         self.velocities = velocities
         self.answers = {}  # (session, seq) -> command
         self.sessions = {}  # session -> number of states
@@ -30,8 +31,13 @@ class Client:
 
     def _on_state(self, _channel, data):
         state = robot_state_t.decode(data)
-        values = [*state.position, *state.orientation, *state.actuator_position, *state.actuator_velocity,
-                  *state.actuator_effort]
+        values = [
+            *state.position,
+            *state.orientation,
+            *state.actuator_position,
+            *state.actuator_velocity,
+            *state.actuator_effort,
+        ]
         self.all_finite = self.all_finite and all(map(math.isfinite, values))
         key = (state.session, state.seq)
         if key not in self.answers:
@@ -45,8 +51,8 @@ class Client:
         command = velocity_command_t()
         command.session, command.seq = key
         command.sender, command.num_actuators = 1, state.num_actuators
-        command.velocity = self.answers[key] + [0.0] * (8 - len(self.answers[key]))
-        self.lcm.publish("LIMPHOME_COMMAND", command.encode())
+        command.velocity[: len(self.answers[key])] = self.answers[key]
+        self.lcm.publish(COMMAND, command.encode())
 
     def _on_status(self, _channel, data):
         status = status_t.decode(data)
@@ -68,9 +74,18 @@ def main():
             pass
     finally:
         simulator.kill()
-    print(json.dumps({"sessions": list(client.sessions.items()), "first_positions": client.first_positions,
-                      "all_finite": client.all_finite, "faults": client.faults,
-                      "fault_session": client.fault_session, "exit_code": simulator.wait()}))
+    print(
+        json.dumps(
+            {
+                "sessions": list(client.sessions.items()),
+                "first_positions": client.first_positions,
+                "all_finite": client.all_finite,
+                "faults": client.faults,
+                "fault_session": client.fault_session,
+                "exit_code": simulator.wait(),
+            }
+        )
+    )
 
 
 if __name__ == "__main__":

@@ -3,9 +3,9 @@
 import subprocess
 
 import pytest
-from conftest import ROOT, SMOKE, run_script
 
-from tools import paths
+from conftest import ROOT, SMOKE, run_script
+from limphome_lab import paths
 
 # (name, text of the INI file, what the message must hold)
 BAD_FILES = [
@@ -19,8 +19,17 @@ BAD_FILES = [
     ("duplicate key", "[learning]\nseed = 1\nseed = 2\n", ["bad.ini:3", "[learning] seed", "line 2"]),
     ("broken line", "[learning]\nseed = 1\nwhat is this\n", ["bad.ini:3"]),
     ("unfinished section", "[learning\nseed = 1\n", ["bad.ini:1"]),
-    ("period not a multiple of the step", "[episode]\ndecision_period_s = 0.1234\n",
-     ["decision_period_s = 0.1234", "whole number", "time_step_s"]),
+    (
+        "period not a multiple of the step",
+        "[episode]\ndecision_period_s = 0.1234\n",
+        ["decision_period_s = 0.1234", "whole number", "time_step_s"],
+    ),
+    (
+        "two that the library takes only apart",
+        "[rbf]\nwidth_floor = 1\ninitial_width = 0.5\n",
+        ["[rbf] initial_width = 0.5", "[rbf] width_floor = 1"],
+    ),
+    ("section and key on a line", "[learning] seed = 7\n", ["bad.ini:1", "[section]", "line of its own"]),
 ]
 BAD_SETS = [
     ("no dot", "seed=1", ["--set seed=1", "section.key=value"]),
@@ -80,27 +89,36 @@ def test_resume_of_what_is_not_a_run(tmp_path):
     assert result.returncode == 2 and "not a run folder" in result.stderr
 
 
-@pytest.mark.parametrize("program", [paths.SIMULATOR, paths.CONTROLLER], ids=["simulator", "controller"])
-@pytest.mark.parametrize("change", [
-    ("</robot>", ""),
-    ('<parent link="upper_body"/>', '<parent link="nowhere"/>'),
-    ('<crawler joint="left_crawler"', '<crawler joint="no_such_joint"'),
-    ('mass value="498"', 'mass value="-498"'),
-    ('mass value="498"', 'mass value="heavy"'),
-    ('lower="-2.6" upper="2.6"', 'lower="2.6" upper="-2.6"'),
-], ids=["cut short", "unknown link", "unknown joint", "negative mass", "mass in words", "empty range"])
+@pytest.mark.parametrize(
+    "program", [paths.program("simulator"), paths.program("controller")], ids=["simulator", "controller"]
+)
+@pytest.mark.parametrize(
+    "change",
+    [
+        ("</robot>", ""),
+        ('<parent link="upper_body"/>', '<parent link="nowhere"/>'),
+        ('<crawler joint="left_crawler"', '<crawler joint="no_such_joint"'),
+        ('mass value="498"', 'mass value="-498"'),
+        ('mass value="498"', 'mass value="heavy"'),
+        ('lower="-2.6" upper="2.6"', 'lower="2.6" upper="-2.6"'),
+    ],
+    ids=["cut short", "unknown link", "unknown joint", "negative mass", "mass in words", "empty range"],
+)
 def test_programs_refuse_a_bad_robot(tmp_path, program, change):
     good = (ROOT / "config" / "crawler.urdf").read_text()
     assert change[0] in good
     bad = tmp_path / "bad.urdf"
     bad.write_text(good.replace(*change))
-    result = subprocess.run([program, "--robot", bad, "--config", SMOKE, "--lcm-url", "memq://"], capture_output=True,
-                            text=True, timeout=30)
+    result = subprocess.run(
+        [program, "--robot", bad, "--config", SMOKE, "--lcm-url", "memq://"], capture_output=True, text=True, timeout=30
+    )
     assert result.returncode == 2, result.stderr
     assert "bad.urdf" in result.stderr
 
 
-@pytest.mark.parametrize("program", [paths.SIMULATOR, paths.CONTROLLER], ids=["simulator", "controller"])
+@pytest.mark.parametrize(
+    "program", [paths.program("simulator"), paths.program("controller")], ids=["simulator", "controller"]
+)
 @by_name(BAD_FILES)
 def test_programs_refuse_a_bad_configuration(tmp_path, program, given, words):
     file = tmp_path / "bad.ini"

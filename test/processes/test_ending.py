@@ -5,9 +5,9 @@ import signal
 import time
 
 import pytest
-from conftest import SMOKE, TIME_LIMIT_S, processes_that_mention, run_script, start_script, wait_until
 
-from tools.runfolder import RunFolder
+from conftest import SMOKE, TIME_LIMIT_S, processes_that_mention, run_script, start_script, wait_until
+from limphome_lab.runfolder import RunFolder
 
 
 @pytest.fixture

@@ -7,11 +7,13 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, SMOKE, TIME_LIMIT_S
 
-from tools import network, paths
-from tools.messages import DECISION, STATUS, recorded, status_t
-from tools.runfolder import RunFolder
+from conftest import ROOT, SMOKE, TIME_LIMIT_S
+from limphome import status_t
+from limphome_lab import network, paths
+from limphome_lab.channels import DECISION, STATUS
+from limphome_lab.messages import recorded
+from limphome_lab.runfolder import RunFolder
 
 FAULTS = {
     "loss": {"drop": 0.3},
@@ -27,12 +29,36 @@ def learn(out, **faults):
     prefix = network.private_prefix()
     if prefix is None:
         pytest.skip("network namespaces are not permitted here")
-    controller = [paths.CONTROLLER, "--config", SMOKE, "--robot", ROOT / "config" / "crawler.urdf", "--out", out,
-                  "--lcm-url", network.lcm_url(), "--set", "learning.episodes=10", "--set", "episode.reset_every=3",
-                  "--set", "episode.step_limit=40"]
-    result = subprocess.run([*prefix, sys.executable, Path(__file__).with_name("fake_plant.py"),
-                             json.dumps({"seed": 5, **faults}), network.lcm_url(), *map(str, controller)],
-                            capture_output=True, text=True, timeout=TIME_LIMIT_S)
+    controller = [
+        paths.program("controller"),
+        "--config",
+        SMOKE,
+        "--robot",
+        ROOT / "config" / "crawler.urdf",
+        "--out",
+        out,
+        "--lcm-url",
+        network.lcm_url(),
+        "--set",
+        "learning.episodes=10",
+        "--set",
+        "episode.reset_every=3",
+        "--set",
+        "episode.step_limit=40",
+    ]
+    result = subprocess.run(
+        [
+            *prefix,
+            sys.executable,
+            Path(__file__).with_name("fake_plant.py"),
+            json.dumps({"seed": 5, **faults}),
+            network.lcm_url(),
+            *map(str, controller),
+        ],
+        capture_output=True,
+        text=True,
+        timeout=TIME_LIMIT_S,
+    )
     assert result.returncode == 0, result.stderr
     return json.loads(result.stdout), RunFolder(out)
 

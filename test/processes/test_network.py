@@ -4,10 +4,10 @@ import os
 import subprocess
 
 import pytest
-from conftest import ROOT, SMOKE, TIME_LIMIT_S
 
-from tools import network, registry
-from tools.runfolder import RunFolder
+from conftest import ROOT, SMOKE, TIME_LIMIT_S
+from limphome_lab import network, registry
+from limphome_lab.runfolder import RunFolder
 
 pytestmark = pytest.mark.skipif(network.private_prefix() is None, reason="network namespaces are not permitted here")
 
@@ -15,8 +15,18 @@ NO_NETWORK = (network.private_prefix() or [])[:2]  # unshare and its option: a l
 
 
 def train_inside(prefix, *arguments):
-    command = [*prefix, ROOT / "scripts" / "train", "--config", SMOKE, "--episodes", "2", "--set",
-               "episode.step_limit=10", "--quiet", *arguments]
+    command = [
+        *prefix,
+        ROOT / "scripts" / "train",
+        "--config",
+        SMOKE,
+        "--episodes",
+        "2",
+        "--set",
+        "episode.step_limit=10",
+        "--quiet",
+        *arguments,
+    ]
     return subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=TIME_LIMIT_S)
 
 

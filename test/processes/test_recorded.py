@@ -10,6 +10,7 @@ import platform
 from pathlib import Path
 
 import pytest
+
 from conftest import ROOT, run_script
 
 RECORDED = json.loads((Path(__file__).parent / "recorded.json").read_text())
@@ -22,8 +23,15 @@ def has_fused_multiply_add():
 @pytest.mark.skipif(not has_fused_multiply_add(), reason="recorded on x86-64 with FMA")
 @pytest.mark.parametrize("experiment", RECORDED)
 def test_what_is_learned_is_what_was_recorded(experiment, tmp_path):
-    run_script("train", "--config", ROOT / "config" / f"{experiment}.ini", "--episodes", 60, "--out", tmp_path / "run",
-               "--quiet")
-    found = {name: hashlib.sha256((tmp_path / "run" / name).read_bytes()).hexdigest()
-             for name in RECORDED[experiment]}
+    run_script(
+        "train",
+        "--config",
+        ROOT / "config" / f"{experiment}.ini",
+        "--episodes",
+        60,
+        "--out",
+        tmp_path / "run",
+        "--quiet",
+    )
+    found = {name: hashlib.sha256((tmp_path / "run" / name).read_bytes()).hexdigest() for name in RECORDED[experiment]}
     assert found == RECORDED[experiment]

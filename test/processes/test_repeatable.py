@@ -3,9 +3,8 @@
 import signal
 
 from conftest import SMOKE, TIME_LIMIT_S, start_script, train, wait_until
-
-from tools.messages import checkpoint_t, policy_t
-from tools.runfolder import RunFolder
+from limphome import checkpoint_t, policy_t
+from limphome_lab.runfolder import RunFolder
 
 
 def policy_after(folder, episode):
@@ -30,8 +29,10 @@ def test_other_seed_other_bytes(smoke_run, tmp_path):
 
 def test_runs_side_by_side_do_not_hear_each_other(smoke_run, tmp_path):
     folders = [RunFolder(tmp_path / name) for name in ("one", "two")]
-    started = [start_script("train", "--config", SMOKE, "--episodes", 10, "--out", folder.path, "--quiet")
-               for folder in folders]
+    started = [
+        start_script("train", "--config", SMOKE, "--episodes", 10, "--out", folder.path, "--quiet")
+        for folder in folders
+    ]
     for process in started:
         assert process.wait(TIME_LIMIT_S) == 0, process.communicate()[1]
     for folder in folders:

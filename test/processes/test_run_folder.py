@@ -2,11 +2,13 @@
 
 import json
 from collections import Counter
+from itertools import pairwise
 
 import pytest
 
-from tools.messages import (DECISION, EPISODE, OUTCOMES, POLICY, STATE, STATUS, checkpoint_t, policy_t, recorded,
-                            status_t)
+from limphome import checkpoint_t, policy_t, status_t
+from limphome_lab.channels import DECISION, EPISODE, POLICY, STATE, STATUS
+from limphome_lab.messages import OUTCOMES, recorded
 
 EPISODES, RESET_EVERY = 30, 10  # of config/smoke.ini
 PRINTED = 1e-8  # relative: episodes.csv has nine digits
@@ -17,7 +19,7 @@ REWARDS = ("reward_motion", "reward_goal", "reward_stability", "reward_tumble")
 def learned_steps(decisions):
     """(episode, decision that tells of it) for every step: a decision tells of the step that led to its state, so of
     the episode that the decision before it was taken in."""
-    for before, decision in zip(decisions, decisions[1:]):
+    for before, decision in pairwise(decisions):
         if decision.learned:
             yield before.episode, decision
 
@@ -38,10 +40,22 @@ def test_one_row_per_episode(smoke_run):
 def test_rows_are_the_episode_messages(smoke_run, messages):
     for row, message in zip(smoke_run.read_episodes(), messages[EPISODE], strict=True):
         assert (row.episode, row.outcome, row.steps) == (message.episode, OUTCOMES[message.outcome], message.steps)
-        in_row = [row.duration_s, row.reward, *(getattr(row, name) for name in REWARDS), row.lateral_error_m,
-                  row.heading_change_rad, row.temperature]
-        in_message = [message.duration, message.reward, *(getattr(message, name) for name in REWARDS),
-                      message.lateral_error, message.heading_change, message.temperature]
+        in_row = [
+            row.duration_s,
+            row.reward,
+            *(getattr(row, name) for name in REWARDS),
+            row.lateral_error_m,
+            row.heading_change_rad,
+            row.temperature,
+        ]
+        in_message = [
+            message.duration,
+            message.reward,
+            *(getattr(message, name) for name in REWARDS),
+            message.lateral_error,
+            message.heading_change,
+            message.temperature,
+        ]
         assert in_row == pytest.approx(in_message, rel=PRINTED)
 
 
@@ -83,7 +97,7 @@ def test_checkpoints_lie_where_the_plant_was_reset(smoke_run, messages):
     files = sorted(smoke_run.checkpoints.iterdir())
     expected = range(RESET_EVERY, EPISODES + 1, RESET_EVERY)
     assert [file.name for file in files] == [f"episode_{number:06}.lcm" for number in expected]
-    for file, number in zip(files, expected):
+    for file, number in zip(files, expected, strict=True):
         checkpoint = checkpoint_t.decode(file.read_bytes())
         assert checkpoint.policy.episode == number
         assert checkpoint.policy.encode() in [policy.encode() for policy in messages[POLICY]]
@@ -102,8 +116,14 @@ def test_recording_holds_the_status_of_both_processes(messages):
 
 def test_status_tells_each_limit_that_acted(messages):
     last = [status for status in messages[STATUS] if status.process == status_t.CONTROLLER][-1]
-    each = [last.clamped_inputs, last.clamped_temperatures, last.clamped_margins, last.clamped_weights,
-            last.clamped_widths, last.clamped_centres]
+    each = [
+        last.clamped_inputs,
+        last.clamped_temperatures,
+        last.clamped_margins,
+        last.clamped_weights,
+        last.clamped_widths,
+        last.clamped_centres,
+    ]
     assert last.clamped_inputs > 0  # joints rest on their stops
     assert last.clamped == sum(each)
 

@@ -7,10 +7,11 @@ import signal
 import subprocess
 
 import pytest
-from conftest import ROOT, TIME_LIMIT_S, run_script, start_script, wait_until
 
-from tools import registry
-from tools.runfolder import RunFolder
+from conftest import ROOT, TIME_LIMIT_S, run_script, start_script, wait_until
+from limphome_lab import registry
+from limphome_lab.channels import DECISION, STATE
+from limphome_lab.runfolder import RunFolder
 
 
 def test_evaluation_is_greedy_and_repeatable(smoke_run):
@@ -37,8 +38,9 @@ def test_evaluation_needs_a_policy(tmp_path):
 def launched(smoke_run, tmp_path, monkeypatch):
     """scripts/launch, in real time, with its registry to itself."""
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    process = start_script("launch", "--policy", smoke_run.path, "--set", "episode.step_limit=2", "--set",
-                           "episode.decision_period_s=0.1")
+    process = start_script(
+        "launch", "--policy", smoke_run.path, "--set", "episode.step_limit=2", "--set", "episode.decision_period_s=0.1"
+    )
     wait_until(process, registry.running)
     pair = registry.running()[0]
     yield process, pair
@@ -64,11 +66,11 @@ def test_spy_as_text_shows_decoded_values(launched):
     seen = ""
     for line in lines:  # the reader's time limit is that of the whole test run
         seen += line
-        if "stability_margin" in seen and "LIMPHOME_STATE\n" in seen and "orientation" in seen:
+        if "stability_margin" in seen and f"{STATE}\n" in seen and "orientation" in seen:
             break
     spy.send_signal(signal.SIGINT)
     spy.communicate(timeout=TIME_LIMIT_S)
-    assert "LIMPHOME_DECISION" in seen and "num_actuators         5" in seen
+    assert DECISION in seen and "num_actuators         5" in seen
 
 
 def test_spy_without_a_pair(tmp_path):
@@ -82,8 +84,12 @@ NEEDED = ("javac", "Xvfb", "xdotool")
 
 @pytest.mark.skipif(not all(map(shutil.which, NEEDED)), reason=f"needs {', '.join(NEEDED)}")
 def test_spy_window_decodes_our_types(launched):
-    server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1000x700x24", "-nolisten", "tcp"],
-                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", "1", "-screen", "0", "1000x700x24", "-nolisten", "tcp"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    )
     environment = {**os.environ, "DISPLAY": f":{server.stdout.readline().strip()}"}
 
     def xdotool(*words):

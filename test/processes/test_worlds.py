@@ -6,26 +6,48 @@ import sys
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, TIME_LIMIT_S, run_script, train
 
-from tools import network, paths
-from tools.messages import DECISION, STATE, policy_t, recorded
-from tools.runfolder import RunFolder
+from conftest import ROOT, TIME_LIMIT_S, run_script, train
+from limphome import policy_t
+from limphome_lab import network, paths
+from limphome_lab.channels import DECISION, STATE
+from limphome_lab.messages import recorded
+from limphome_lab.runfolder import RunFolder
 
 SHORT = ["--episodes", 2, "--set", "episode.step_limit=30"]
-HARSH = ["--set", "ground.rough_amplitude_m=0.05", "--set", "ground.incline_along_rad=0.05",
-         "--set", "ground.patch_share=0.3", "--set", "sensors.position_noise=0.01", "--set", "sensors.joint_bias=0.02",
-         "--set", "sensors.torque_delay_s=0.1", "--set", "randomisation.mass=0.1", "--set", "randomisation.friction=0.2",
-         "--set", "episode.step_limit=20", "--set", "episode.reset_every=2"]
+HARSH = [
+    "--set",
+    "ground.rough_amplitude_m=0.05",
+    "--set",
+    "ground.incline_along_rad=0.05",
+    "--set",
+    "ground.patch_share=0.3",
+    "--set",
+    "sensors.position_noise=0.01",
+    "--set",
+    "sensors.joint_bias=0.02",
+    "--set",
+    "sensors.torque_delay_s=0.1",
+    "--set",
+    "randomisation.mass=0.1",
+    "--set",
+    "randomisation.friction=0.2",
+    "--set",
+    "episode.step_limit=20",
+    "--set",
+    "episode.reset_every=2",
+]
 
 
-@pytest.mark.parametrize("actuator, actions", [("left_crawler", 3 ** 6), ("none", 3 ** 7)])
+@pytest.mark.parametrize("actuator, actions", [("left_crawler", 3**6), ("none", 3**7)])
 def test_two_arms_learn_with_the_same_programs(tmp_path, actuator, actions):
-    train(tmp_path / "run", "--robot", ROOT / "config" / "two_arm.urdf", *SHORT, "--set", f"failure.actuator={actuator}")
+    train(
+        tmp_path / "run", "--robot", ROOT / "config" / "two_arm.urdf", *SHORT, "--set", f"failure.actuator={actuator}"
+    )
     folder = RunFolder(tmp_path / "run")
     assert len(folder.read_episodes()) == 2
     policy = policy_t.decode(folder.policy.read_bytes())
-    assert 3 ** policy.num_controlled == actions
+    assert 3**policy.num_controlled == actions
     assert any(policy.weight), "nothing was learned"
     chosen = {decision.action for _, decision in recorded(folder.messages, DECISION)}
     assert len(chosen) > 30 and actions // 2 < max(chosen) < actions
@@ -56,14 +78,34 @@ def drive(tmp_path, velocities):
         pytest.skip("network namespaces are not permitted here")
     robot = tmp_path / "geared.urdf"
     text = (ROOT / "config" / "crawler.urdf").read_text()
-    for reasonable, absurd in (('radius="0.18"', 'radius="0.0001"'), ('effort="1000" velocity="5"',
-                                                                      'effort="1e9" velocity="1e6"')):
+    for reasonable, absurd in (
+        ('radius="0.18"', 'radius="0.0001"'),
+        ('effort="1000" velocity="5"', 'effort="1e9" velocity="1e6"'),
+    ):
         text = text.replace(reasonable, absurd)
     robot.write_text(text)
-    simulator = [paths.SIMULATOR, "--robot", robot, "--lcm-url", network.lcm_url(), "--set", "failure.actuator=none"]
-    result = subprocess.run([*prefix, sys.executable, Path(__file__).with_name("fault_client.py"), network.lcm_url(),
-                             json.dumps(velocities), *map(str, simulator)],
-                            capture_output=True, text=True, timeout=TIME_LIMIT_S)
+    simulator = [
+        paths.program("simulator"),
+        "--robot",
+        robot,
+        "--lcm-url",
+        network.lcm_url(),
+        "--set",
+        "failure.actuator=none",
+    ]
+    result = subprocess.run(
+        [
+            *prefix,
+            sys.executable,
+            Path(__file__).with_name("fault_client.py"),
+            network.lcm_url(),
+            json.dumps(velocities),
+            *map(str, simulator),
+        ],
+        capture_output=True,
+        text=True,
+        timeout=TIME_LIMIT_S,
+    )
     assert result.returncode == 0, result.stderr
     return json.loads(result.stdout), result.stderr
 

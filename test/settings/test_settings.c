@@ -1,5 +1,6 @@
 /* Settings: defaults, reading, refusals with their place and range, writing, hash. */
 #include <check.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,10 +9,12 @@
 #include "command_line.h"
 #include "settings.h"
 
+#define COUNT(table) (int)(sizeof(table) / sizeof(table)[0])
+
 static char path[] = "/tmp/limphome_settings_XXXXXX";
 
 /* Reads `text` as an INI file over the defaults. */
-static int read_text(settings *s, const char *text, char error[SETTINGS_ERROR_LENGTH]) {
+static bool read_text(settings *s, const char *text, char error[ERROR_LENGTH]) {
     char name[sizeof path];
     memcpy(name, path, sizeof path);
     const int file = mkstemp(name);
@@ -19,17 +22,17 @@ static int read_text(settings *s, const char *text, char error[SETTINGS_ERROR_LE
     ck_assert_int_eq(write(file, text, strlen(text)), (ssize_t)strlen(text));
     close(file);
     *s = settings_default();
-    const int result = settings_read(s, name, error);
+    const bool result = settings_read(s, name, error);
     unlink(name);
     return result;
 }
 
 /* `text` must be refused, with each of the words in the error, and nothing taken over. */
 static void check_refused(const char *text, const char *const *words) {
-    char error[SETTINGS_ERROR_LENGTH] = "";
+    char error[ERROR_LENGTH] = "";
     settings s;
     const settings standard = settings_default();
-    ck_assert_int_eq(read_text(&s, text, error), -1);
+    ck_assert(!read_text(&s, text, error));
     ck_assert_mem_eq(&s, &standard, sizeof s);
     for (; *words != NULL; words++) {
         ck_assert_msg(strstr(error, *words) != NULL, "error \"%s\" lacks \"%s\"", error, *words);
@@ -56,9 +59,9 @@ END_TEST
 
 START_TEST(paper_ini_is_the_default) {
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
+    char error[ERROR_LENGTH] = "";
     const settings standard = settings_default();
-    ck_assert_msg(settings_read(&s, CONFIG_DIR "/paper.ini", error) == 0, "%s", error);
+    ck_assert_msg(settings_read(&s, CONFIG_DIR "/paper.ini", error), "%s", error);
     s.episode.tumble_tilt_rad = standard.episode.tumble_tilt_rad; /* printed with fewer digits */
     ck_assert_mem_eq(&s, &standard, sizeof s);
 }
@@ -66,17 +69,51 @@ END_TEST
 
 START_TEST(reads_comments_spaces_and_choices) {
     settings s;
-    char error[SETTINGS_ERROR_LENGTH] = "";
+    char error[ERROR_LENGTH] = "";
     ck_assert_msg(read_text(&s,
                             "; a comment\n[learning]\n  \nseed=7\nlearning_rate = 1e-2 ; inline\n\n[failure]\n"
                             "actuator = right_crawler\nmode = free\n[second_failure]\nactuator = joint_3",
-                            error) == 0,
+                            error),
                   "%s", error);
     ck_assert_int_eq(s.learning.seed, 7);
     ck_assert_double_eq(s.learning.learning_rate, 0.01);
     ck_assert_int_eq(s.failure.actuator, SETTINGS_FAILED_RIGHT);
     ck_assert_int_eq(s.failure.mode, SETTINGS_FREE);
     ck_assert_int_eq(s.second_failure.actuator, SETTINGS_FAILED_JOINT + 2);
+}
+END_TEST
+
+/* Files that mean seed 7 and 3 episodes, however they are laid out. */
+static const char *const layouts[] = {
+    "[learning]\nseed = 7\nepisodes = 3\n",
+    "[learning]\r\nseed = 7\r\nepisodes = 3\r\n",
+    "[learning]\rseed = 7\repisodes = 3\r",
+    "[learning]\n\tseed = 7\n\tepisodes = 3\n",
+    "  [learning] ; what follows\n    seed = 7\n        episodes = 3",
+    "\xEF\xBB\xBF[learning]  # a byte order mark before it\nseed: 7\n  episodes = 3\n",
+};
+
+START_TEST(reads_every_layout) {
+    settings s;
+    char error[ERROR_LENGTH] = "";
+    ck_assert_msg(read_text(&s, layouts[_i], error), "%s", error);
+    ck_assert_int_eq(s.learning.seed, 7);
+    ck_assert_int_eq(s.learning.episodes, 3);
+}
+END_TEST
+
+START_TEST(refuses_a_byte_that_is_no_text) {
+    char name[sizeof path];
+    memcpy(name, path, sizeof path);
+    static const char utf16[] = "[\0l\0e\0a\0";
+    const int file = mkstemp(name);
+    ck_assert_int_eq(write(file, utf16, sizeof utf16), (ssize_t)sizeof utf16);
+    close(file);
+    settings s = settings_default();
+    char error[ERROR_LENGTH] = "";
+    ck_assert(!settings_read(&s, name, error));
+    ck_assert_ptr_nonnull(strstr(error, ":1: a byte of value 0"));
+    unlink(name);
 }
 END_TEST
 
@@ -100,6 +137,9 @@ static const struct {
     {"[learning]\nseed = 1\nepisodes = 3\nseed = 2\n", {":4:", "seed", "already set at line 2"}},
     {"[learning]\nwhat is this\n", {":2:", "key = value"}},
     {"[learning\nseed = 1\n", {":1:"}},
+    {"; one\n[learning] seed = 7\n", {":2:", "[section] must stand on a line of its own"}},
+    {"\xEF\xBB\xBF[learning]seed = 7\n", {":1:", "[section] must stand on a line of its own"}},
+    {"[learning]\rseed = 7\r\repisodes = 0\r", {":4:", "episodes = 0"}},
 };
 
 START_TEST(refuses_with_place_and_range) {
@@ -117,71 +157,109 @@ END_TEST
 
 START_TEST(refuses_a_missing_file) {
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    ck_assert_int_eq(settings_read(&s, "/nowhere/at_all.ini", error), -1);
+    char error[ERROR_LENGTH] = "";
+    ck_assert(!settings_read(&s, "/nowhere/at_all.ini", error));
     ck_assert_ptr_nonnull(strstr(error, "/nowhere/at_all.ini"));
-    ck_assert_int_eq(settings_read(&s, "/", error), -1);
+    ck_assert(!settings_read(&s, "/", error));
 }
 END_TEST
 
 START_TEST(set_takes_one_assignment) {
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    ck_assert_int_eq(settings_set(&s, "simulator.pace=real_time", error), 0);
+    char error[ERROR_LENGTH] = "";
+    ck_assert(settings_set(&s, "simulator.pace=real_time", error));
     ck_assert_int_eq(s.simulator.pace, SETTINGS_REAL_TIME);
     static const char *const bad[] = {"",   "seed=1", "learning.seed",  "learning.seed=", "learning.seed=x",
                                       ".=", "a.b=c",  "learning=seed.1"};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         const settings before = s;
-        ck_assert_msg(settings_set(&s, bad[i], error) == -1, "%s was accepted", bad[i]);
+        ck_assert_msg(!settings_set(&s, bad[i], error), "%s was accepted", bad[i]);
         ck_assert_ptr_nonnull(strstr(error, "--set"));
         ck_assert_mem_eq(&s, &before, sizeof s);
     }
 }
 END_TEST
 
-START_TEST(check_wants_whole_steps_per_decision) {
+/* Two settings that are allowed each for itself, but not together; the text names both with their values. */
+static const struct {
+    const char *first, *second;
+    const char *text;
+} relations[] = {
+    {"rbf.initial_width=0.5", "rbf.width_floor=0.75",
+     "[rbf] initial_width = 0.5: must be at least [rbf] width_floor = 0.75"},
+    {"rbf.initial_weight=20", "rbf.weight_limit=10",
+     "[rbf] initial_weight = 20: must be in magnitude at most [rbf] weight_limit = 10"},
+    {"rbf.initial_weight=-20", "rbf.weight_limit=10", "[rbf] initial_weight = -20: must be in magnitude"},
+    {"episode.decision_period_s=0.5", "simulator.time_step_s=0.003",
+     "[episode] decision_period_s = 0.5: must be a whole number of [simulator] time_step_s = 0.003"},
+    {"episode.decision_period_s=0.01", "simulator.time_step_s=0.02", "[episode] decision_period_s = 0.01: must be"},
+    {"sensors.attitude_delay_s=0.1001", "simulator.time_step_s=0.005",
+     "[sensors] attitude_delay_s = 0.1001: must be a whole number of [simulator] time_step_s = 0.005"},
+    {"sensors.position_delay_s=0.003", "simulator.time_step_s=0.005",
+     "[sensors] position_delay_s = 0.003: must be a whole number of [simulator] time_step_s = 0.005"},
+    {"sensors.joint_delay_s=1e-9", "simulator.time_step_s=0.005",
+     "[sensors] joint_delay_s = 1e-09: must be a whole number of [simulator] time_step_s = 0.005"},
+    {"sensors.torque_delay_s=4.9999", "simulator.time_step_s=0.005",
+     "[sensors] torque_delay_s = 4.9999: must be a whole number of [simulator] time_step_s = 0.005"},
+    {"failure.actuator=joint_2", "second_failure.actuator=joint_2",
+     "[second_failure] actuator = joint_2: must be another than [failure] actuator = joint_2"},
+    {"failure.actuator=joint_1", "failure.mode=slipping",
+     "[failure] mode = slipping: is for crawlers only, not for [failure] actuator = joint_1"},
+    {"second_failure.actuator=joint_6", "second_failure.mode=slipping",
+     "[second_failure] mode = slipping: is for crawlers only, not for [second_failure] actuator = joint_6"},
+};
+
+START_TEST(check_names_both_of_two_that_do_not_go_together) {
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    ck_assert_int_eq(settings_check(&s, error), 0);
-    s.simulator.time_step_s = 0.003;
-    ck_assert_int_eq(settings_check(&s, error), -1);
-    ck_assert_ptr_nonnull(strstr(error, "decision_period_s"));
-    ck_assert_ptr_nonnull(strstr(error, "time_step_s"));
-    s.simulator.time_step_s = 0.02;
-    s.episode.decision_period_s = 0.01;
-    ck_assert_int_eq(settings_check(&s, error), -1);
+    char error[ERROR_LENGTH] = "";
+    ck_assert(settings_set(&s, relations[_i].first, error));
+    ck_assert(settings_set(&s, relations[_i].second, error));
+    ck_assert(!settings_check(&s, error));
+    ck_assert_msg(strstr(error, relations[_i].text) == error, "error \"%s\" is not \"%s\"", error, relations[_i].text);
 }
 END_TEST
 
-START_TEST(check_wants_whole_steps_of_delay) {
+/* Next to what is refused. */
+static const struct {
+    const char *first, *second;
+} agreements[] = {
+    {"rbf.initial_width=0.5", "rbf.width_floor=0.5"},
+    {"rbf.initial_weight=-10", "rbf.weight_limit=10"},
+    {"episode.decision_period_s=0.02", "simulator.time_step_s=0.02"},
+    {"episode.decision_period_s=0.3", "simulator.time_step_s=0.003"},
+    {"sensors.joint_delay_s=0.1", "simulator.time_step_s=0.005"},
+    {"failure.actuator=none", "second_failure.actuator=none"},
+    {"failure.actuator=left_crawler", "second_failure.actuator=right_crawler"},
+    {"failure.actuator=right_crawler", "failure.mode=slipping"},
+    {"second_failure.actuator=none", "second_failure.mode=slipping"},
+};
+
+START_TEST(check_accepts_what_goes_together) {
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    s.sensors.joint.delay_s = 0.1;
-    ck_assert_int_eq(settings_check(&s, error), 0);
-    s.sensors.joint.delay_s = 0.1001;
-    ck_assert_int_eq(settings_check(&s, error), -1);
-    ck_assert_ptr_nonnull(strstr(error, "[sensors] joint_delay_s"));
+    char error[ERROR_LENGTH] = "";
+    ck_assert(settings_set(&s, agreements[_i].first, error));
+    ck_assert(settings_set(&s, agreements[_i].second, error));
+    ck_assert_msg(settings_check(&s, error), "%s", error);
 }
 END_TEST
 
-START_TEST(check_wants_failures_that_are_possible) {
+/* Settings that were made by a program, not read. */
+static void check_out_of_range(const settings *s, const char *text) {
+    char error[ERROR_LENGTH] = "";
+    ck_assert(!settings_check(s, error));
+    ck_assert_str_eq(error, text);
+}
+
+START_TEST(check_wants_every_value_in_its_range) {
     settings s = settings_default();
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    s.second_failure.actuator = SETTINGS_FAILED_RIGHT;
-    ck_assert_int_eq(settings_check(&s, error), 0);
-    s.second_failure.actuator = s.failure.actuator;
-    ck_assert_int_eq(settings_check(&s, error), -1);
-    ck_assert_ptr_nonnull(strstr(error, "[second_failure] actuator"));
+    s.episode.step_limit = 0;
+    check_out_of_range(&s, "[episode] step_limit = 0: not allowed; step_limit is a whole number from 1 to 100000");
     s = settings_default();
-    s.failure.mode = SETTINGS_SLIPPING;
-    ck_assert_int_eq(settings_check(&s, error), 0);
-    s.failure.actuator = SETTINGS_FAILED_JOINT;
-    ck_assert_int_eq(settings_check(&s, error), -1);
-    ck_assert_ptr_nonnull(strstr(error, "slipping"));
-    s.failure.actuator = s.second_failure.actuator = SETTINGS_FAILED_NONE;
-    s.failure.mode = SETTINGS_LOCKED;
-    ck_assert_int_eq(settings_check(&s, error), 0);
+    s.failure.mode = SETTINGS_SLIPPING + 1;
+    check_out_of_range(&s, "[failure] mode = ?: not allowed; mode is one of: locked free weak slipping");
+    s = settings_default();
+    s.reward.goal = NAN;
+    check_out_of_range(&s, "[reward] goal = nan: not allowed; goal is a number from 0 to 1000");
 }
 END_TEST
 
@@ -195,8 +273,8 @@ START_TEST(what_is_written_reads_back_the_same) {
     settings_write(&s, out);
     fclose(out);
     settings read;
-    char error[SETTINGS_ERROR_LENGTH] = "";
-    ck_assert_msg(read_text(&read, text, error) == 0, "%s", error);
+    char error[ERROR_LENGTH] = "";
+    ck_assert_msg(read_text(&read, text, error), "%s", error);
     ck_assert_mem_eq(&read, &s, sizeof s);
 }
 END_TEST
@@ -213,6 +291,17 @@ START_TEST(hash_tells_what_decides) {
     other = s;
     other.failure.mode = SETTINGS_FREE;
     ck_assert_uint_ne(settings_hash(&s), settings_hash(&other));
+}
+END_TEST
+
+/* A checkpoint is gone on with only where the hash is that of its settings. A new key that decides what is learned
+ * changes these on purpose. */
+START_TEST(hash_is_that_of_earlier_checkpoints) {
+    settings s = settings_default();
+    char error[ERROR_LENGTH] = "";
+    ck_assert_uint_eq(settings_hash(&s), 0x73899731a6698265);
+    ck_assert_msg(settings_read(&s, CONFIG_DIR "/paper.ini", error), "%s", error);
+    ck_assert_uint_eq(settings_hash(&s), 0x001a4dc38067d67e);
 }
 END_TEST
 
@@ -238,15 +327,18 @@ int main(void) {
     tcase_add_test(all, defaults_are_table_2);
     tcase_add_test(all, paper_ini_is_the_default);
     tcase_add_test(all, reads_comments_spaces_and_choices);
-    tcase_add_loop_test(all, refuses_with_place_and_range, 0, (int)(sizeof refusals / sizeof refusals[0]));
+    tcase_add_loop_test(all, reads_every_layout, 0, COUNT(layouts));
+    tcase_add_test(all, refuses_a_byte_that_is_no_text);
+    tcase_add_loop_test(all, refuses_with_place_and_range, 0, COUNT(refusals));
     tcase_add_test(all, refuses_a_line_that_is_too_long);
     tcase_add_test(all, refuses_a_missing_file);
     tcase_add_test(all, set_takes_one_assignment);
-    tcase_add_test(all, check_wants_whole_steps_per_decision);
-    tcase_add_test(all, check_wants_whole_steps_of_delay);
-    tcase_add_test(all, check_wants_failures_that_are_possible);
+    tcase_add_loop_test(all, check_names_both_of_two_that_do_not_go_together, 0, COUNT(relations));
+    tcase_add_loop_test(all, check_accepts_what_goes_together, 0, COUNT(agreements));
+    tcase_add_test(all, check_wants_every_value_in_its_range);
     tcase_add_test(all, what_is_written_reads_back_the_same);
     tcase_add_test(all, hash_tells_what_decides);
+    tcase_add_test(all, hash_is_that_of_earlier_checkpoints);
     tcase_add_test(all, command_line_takes_the_file_first_then_assignments);
     suite_add_tcase(suite, all);
     SRunner *runner = srunner_create(suite);

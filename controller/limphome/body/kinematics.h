@@ -18,6 +18,10 @@ typedef struct lh_posture {
     int32_t carrying[LH_MAX_SUPPORTS]; /* indices of the supports that can carry the robot on level ground, ascending */
 } lh_posture;
 
+/* Range of the tolerance by which supports count as carrying. */
+#define LH_SUPPORT_TOLERANCE_MIN 0.001f /* [m] */
+#define LH_SUPPORT_TOLERANCE_MAX 1.0f   /* [m] */
+
 /* `attitude` is body to world; joint_angle[robot->num_actuators] holds the joints' angles [rad] and is not read for
  * crawlers.
  * Carrying: on level ground the robot stands on its lowest support points. Those within `tolerance` [m] of the plane

@@ -11,6 +11,10 @@
 extern "C" {
 #endif
 
+/* Range of the least T of (4), in the unit of Q. */
+#define LH_TEMPERATURE_FLOOR_MIN 1e-4f
+#define LH_TEMPERATURE_FLOOR_MAX 10.0f
+
 /* T = 1 / log(t + 0.1) of (4) for episode t, counted from 1, but not less than `floor` [same unit as Q].
  * LH_ERROR_EPISODE, and *temperature unchanged, for t < 1, where (4) is negative. */
 lh_error lh_boltzmann_temperature(int32_t episode, float floor, float *temperature);

@@ -32,15 +32,17 @@ lh_error lh_network_config_validate(const lh_network_config *config) {
     if (config->inputs < 1 || config->inputs > LH_MAX_INPUTS) {
         return LH_ERROR_INPUTS;
     }
-    if (!lh_within(config->rate_weight, 0.0f, 10.0f) || !lh_within(config->rate_width, 0.0f, 10.0f) ||
-        !lh_within(config->rate_centre, 0.0f, 10.0f)) {
+    if (!lh_within(config->rate_weight, 0.0f, LH_NETWORK_RATE_MAX) ||
+        !lh_within(config->rate_width, 0.0f, LH_NETWORK_RATE_MAX) ||
+        !lh_within(config->rate_centre, 0.0f, LH_NETWORK_RATE_MAX)) {
         return LH_ERROR_RATE;
     }
-    if (!lh_within(config->width_floor, 0.01f, 1.0f) || !lh_within(config->weight_limit, 1.0f, 1e6f)) {
+    if (!lh_within(config->width_floor, LH_WIDTH_FLOOR_MIN, LH_WIDTH_FLOOR_MAX) ||
+        !lh_within(config->weight_limit, LH_WEIGHT_LIMIT_MIN, LH_WEIGHT_LIMIT_MAX)) {
         return LH_ERROR_LIMIT;
     }
     if (!lh_within(config->initial_weight, -config->weight_limit, config->weight_limit) ||
-        !lh_within(config->initial_width, config->width_floor, 100.0f)) {
+        !lh_within(config->initial_width, config->width_floor, LH_INITIAL_WIDTH_MAX)) {
         return LH_ERROR_INITIAL;
     }
     return LH_OK;

@@ -18,6 +18,14 @@ extern "C" {
 #define LH_WIDTH_LIMIT 1000.0f  /* largest sigma_j */
 #define LH_CENTRE_LIMIT 1000.0f /* largest |mu_ij| */
 
+/* Ranges of lh_network_config. */
+#define LH_NETWORK_RATE_MAX 10.0f   /* of alpha_w, alpha_sigma and alpha_mu; at least 0 */
+#define LH_INITIAL_WIDTH_MAX 100.0f /* of sigma_j; at least width_floor */
+#define LH_WIDTH_FLOOR_MIN 0.01f
+#define LH_WIDTH_FLOOR_MAX 1.0f
+#define LH_WEIGHT_LIMIT_MIN 1.0f
+#define LH_WEIGHT_LIMIT_MAX 1e6f
+
 typedef struct lh_network_config {
     int32_t units;        /* 1 to LH_MAX_UNITS; paper: 50 */
     int32_t inputs;       /* 1 to LH_MAX_INPUTS; paper: 10 */

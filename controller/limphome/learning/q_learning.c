@@ -17,10 +17,11 @@ lh_q_learning_config lh_q_learning_config_default(void) {
 }
 
 lh_error lh_q_learning_config_validate(const lh_q_learning_config *config) {
-    if (!lh_within(config->learning_rate, 0.0f, 1.0f) || !lh_within(config->discount_rate, 0.0f, 1.0f)) {
+    if (!lh_within(config->learning_rate, 0.0f, LH_LEARNING_RATE_MAX) ||
+        !lh_within(config->discount_rate, 0.0f, LH_DISCOUNT_RATE_MAX)) {
         return LH_ERROR_RATE;
     }
-    if (!lh_within(config->temperature_floor, 1e-4f, 10.0f)) {
+    if (!lh_within(config->temperature_floor, LH_TEMPERATURE_FLOOR_MIN, LH_TEMPERATURE_FLOOR_MAX)) {
         return LH_ERROR_LIMIT;
     }
     return lh_network_config_validate(&config->network);

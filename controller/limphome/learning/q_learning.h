@@ -15,6 +15,10 @@
 extern "C" {
 #endif
 
+/* Ranges of lh_q_learning_config, from 0; for the temperature floor see boltzmann.h. */
+#define LH_LEARNING_RATE_MAX 1.0f
+#define LH_DISCOUNT_RATE_MAX 1.0f
+
 typedef struct lh_q_learning_config {
     float learning_rate;       /* alpha of (2), 0 to 1; paper: 0.1 */
     float discount_rate;       /* gamma of (1), 0 to 1; paper: 0.9 */

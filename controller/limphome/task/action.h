@@ -11,6 +11,10 @@
 extern "C" {
 #endif
 
+/* Range of the speed of the forward and reverse levels. */
+#define LH_SPEED_MIN 0.01f /* [m/s or rad/s] */
+#define LH_SPEED_MAX 2.0f  /* [m/s or rad/s] */
+
 /* 3^n; n is 0 to LH_MAX_ACTUATORS. */
 int32_t lh_action_count(int32_t n);
 

@@ -12,9 +12,10 @@ lh_episode_config lh_episode_config_default(void) {
 }
 
 lh_error lh_episode_config_validate(const lh_episode_config *config) {
-    bool good = lh_within(config->goal_distance, 0.1f, 100.0f) && config->step_limit >= 1 &&
-                config->step_limit <= 100000 && lh_within(config->tumble_tilt, 0.1f, 3.0f) &&
-                config->reset_every >= 1 && config->reset_every <= 1000000;
+    bool good = lh_within(config->goal_distance, LH_GOAL_DISTANCE_MIN, LH_GOAL_DISTANCE_MAX) &&
+                config->step_limit >= 1 && config->step_limit <= LH_STEP_LIMIT_MAX &&
+                lh_within(config->tumble_tilt, LH_TUMBLE_TILT_MIN, LH_TUMBLE_TILT_MAX) && config->reset_every >= 1 &&
+                config->reset_every <= LH_RESET_EVERY_MAX;
     return good ? LH_OK : LH_ERROR_EPISODE;
 }
 

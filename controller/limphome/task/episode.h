@@ -11,6 +11,14 @@
 extern "C" {
 #endif
 
+/* Ranges of lh_episode_config. */
+#define LH_GOAL_DISTANCE_MIN 0.1f   /* [m] */
+#define LH_GOAL_DISTANCE_MAX 100.0f /* [m] */
+#define LH_STEP_LIMIT_MAX 100000    /* decisions; at least 1 */
+#define LH_TUMBLE_TILT_MIN 0.1f     /* [rad] */
+#define LH_TUMBLE_TILT_MAX 3.0f     /* [rad] */
+#define LH_RESET_EVERY_MAX 1000000  /* episodes; at least 1 */
+
 #define LH_LAST_EPISODE 1000000000 /* where counting stops */
 
 typedef enum lh_outcome {

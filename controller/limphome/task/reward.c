@@ -15,9 +15,9 @@ lh_reward_config lh_reward_config_default(void) {
 }
 
 lh_error lh_reward_config_validate(const lh_reward_config *config) {
-    bool good = lh_within(config->forward, 0.0f, 1000.0f) && lh_within(config->sideways, 0.0f, 1000.0f) &&
-                lh_within(config->turn, 0.0f, 1000.0f) && lh_within(config->goal, 0.0f, 1000.0f) &&
-                lh_within(config->stability, 0.0f, 1000.0f) && lh_within(config->tumble, -1000.0f, 0.0f);
+    bool good = lh_within(config->forward, 0.0f, LH_REWARD_MAX) && lh_within(config->sideways, 0.0f, LH_REWARD_MAX) &&
+                lh_within(config->turn, 0.0f, LH_REWARD_MAX) && lh_within(config->goal, 0.0f, LH_REWARD_MAX) &&
+                lh_within(config->stability, 0.0f, LH_REWARD_MAX) && lh_within(config->tumble, -LH_REWARD_MAX, 0.0f);
     return good ? LH_OK : LH_ERROR_REWARD;
 }
 

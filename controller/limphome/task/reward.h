@@ -10,6 +10,7 @@
 extern "C" {
 #endif
 
+#define LH_REWARD_MAX 1000.0f   /* largest coefficient, in its unit, and largest magnitude of `tumble` */
 #define LH_LEAST_MARGIN (-5.0f) /* [m]; keeps exp(-S) of (12) in bounds whatever the posture */
 
 typedef struct lh_reward_config {

@@ -25,10 +25,11 @@ lh_task_config lh_task_config_default(void) {
 }
 
 lh_error lh_task_config_validate(const lh_task_config *config) {
-    if (!lh_within(config->crawler_speed, 0.01f, 2.0f) || !lh_within(config->joint_speed, 0.01f, 2.0f)) {
+    if (!lh_within(config->crawler_speed, LH_SPEED_MIN, LH_SPEED_MAX) ||
+        !lh_within(config->joint_speed, LH_SPEED_MIN, LH_SPEED_MAX)) {
         return LH_ERROR_SPEED;
     }
-    if (!lh_within(config->support_tolerance, 0.001f, 1.0f)) {
+    if (!lh_within(config->support_tolerance, LH_SUPPORT_TOLERANCE_MIN, LH_SUPPORT_TOLERANCE_MAX)) {
         return LH_ERROR_LIMIT;
     }
     lh_error error = lh_reward_config_validate(&config->reward);

@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "limphome_channels.h"
+
 namespace limphome {
 namespace {
 
@@ -80,9 +82,9 @@ settings real_time() {
 class Controller {
    public:
     explicit Controller(Link &link) : bus_(link.bus()) {
-        bus_.subscribe("LIMPHOME_STATE", &Controller::hear_state, this);
-        bus_.subscribe("LIMPHOME_TRUTH", &Controller::hear_truth, this);
-        bus_.subscribe("LIMPHOME_STATUS", &Controller::hear_status, this);
+        bus_.subscribe(LIMPHOME_CHANNEL_STATE, &Controller::hear_state, this);
+        bus_.subscribe(LIMPHOME_CHANNEL_TRUTH, &Controller::hear_truth, this);
+        bus_.subscribe(LIMPHOME_CHANNEL_STATUS, &Controller::hear_status, this);
     }
 
     void command(const robot_state_t &state, const Rates &rates) {
@@ -92,7 +94,7 @@ class Controller {
         command.sender = 1;
         command.num_actuators = state.num_actuators;
         std::copy(rates.begin(), rates.end(), command.velocity);
-        bus_.publish("LIMPHOME_COMMAND", &command);
+        bus_.publish(LIMPHOME_CHANNEL_COMMAND, &command);
     }
     void ask_for_reset(const robot_state_t &state, int32_t episode) {
         reset_request_t request{};
@@ -100,7 +102,7 @@ class Controller {
         request.seq = state.seq;
         request.sender = 1;
         request.episode = episode;
-        bus_.publish("LIMPHOME_RESET", &request);
+        bus_.publish(LIMPHOME_CHANNEL_RESET, &request);
     }
 
     std::function<void(const robot_state_t &)> answer;

@@ -1,0 +1,10 @@
+"""The channels' names, as in lcmtypes/limphome_channels.h; docs/protocol.md tells what each carries."""
+
+STATE = "LIMPHOME_STATE"
+COMMAND = "LIMPHOME_COMMAND"
+RESET = "LIMPHOME_RESET"
+TRUTH = "LIMPHOME_TRUTH"
+DECISION = "LIMPHOME_DECISION"
+EPISODE = "LIMPHOME_EPISODE"
+POLICY = "LIMPHOME_POLICY"
+STATUS = "LIMPHOME_STATUS"

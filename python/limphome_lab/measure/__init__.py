@@ -1,0 +1,1 @@
+"""The simulator against theory and other engines, speed against baselines, the tests against mutants."""

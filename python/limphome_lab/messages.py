@@ -1,0 +1,79 @@
+"""The messages of a run: what each channel carries, and the recording."""
+
+import lcm
+
+from limphome import (
+    decision_t,
+    episode_t,
+    ground_truth_t,
+    policy_t,
+    reset_request_t,
+    robot_state_t,
+    status_t,
+    velocity_command_t,
+)
+from limphome_lab.channels import COMMAND, DECISION, EPISODE, POLICY, RESET, STATE, STATUS, TRUTH
+
+TYPES = {
+    STATE: robot_state_t,
+    COMMAND: velocity_command_t,
+    RESET: reset_request_t,
+    TRUTH: ground_truth_t,
+    DECISION: decision_t,
+    EPISODE: episode_t,
+    POLICY: policy_t,
+    STATUS: status_t,
+}
+
+OUTCOMES = {episode_t.GOAL: "goal", episode_t.TUMBLE: "tumble", episode_t.TIMEOUT: "timeout"}
+
+
+def read_log(path):
+    """Yields (channel, encoded message) of a recording in the order they were written."""
+    log = lcm.EventLog(str(path), "r")
+    try:
+        for event in log:
+            yield event.channel, event.data
+    finally:
+        log.close()
+
+
+def recorded(path, *channels):
+    """Yields (channel, message) of the named channels."""
+    for channel, data in read_log(path):
+        if channel in channels:
+            yield channel, TYPES[channel].decode(data)
+
+
+def episode_states(path, wanted):
+    """States of whole episodes from a recording: {episode number: (episode_t, [robot_state_t])} for `wanted`.
+
+    The states run from the start of the episode to its end, each (session, seq) once although a plant repeats
+    what is not answered. Episode 0 of `wanted` stands for the first, -1 for the last in the recording.
+    """
+    found = {}
+    last = None
+    since_last_episode = []  # encoded; decoded only when they are wanted
+    for channel, data in read_log(path):
+        if channel == STATE:
+            since_last_episode.append(data)
+        elif channel == EPISODE:
+            episode = episode_t.decode(data)
+            last = (episode, since_last_episode)
+            if episode.episode in wanted or (0 in wanted and not found.get(0)):
+                found[episode.episode if episode.episode in wanted else 0] = last
+            # the state in which an episode ended is the one in which the next may start
+            since_last_episode = since_last_episode[-1:]
+    if -1 in wanted and last:
+        found[-1] = last
+    return {number: (episode, _states_of(episode, states)) for number, (episode, states) in found.items()}
+
+
+def _states_of(episode, encoded):
+    states = {}
+    for data in encoded:
+        state = robot_state_t.decode(data)
+        if state.session == episode.session:
+            states.setdefault(state.seq, state)
+    begin = episode.utime - round(episode.duration * 1e6)
+    return [state for _, state in sorted(states.items()) if begin <= state.utime <= episode.utime]

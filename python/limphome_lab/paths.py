@@ -1,0 +1,42 @@
+"""Where things are: in a source tree and its build, or where pip and `cmake --install` have put them."""
+
+import os
+import shutil
+import sys
+from pathlib import Path
+
+from limphome_lab.ending import Ending
+
+_TREE = Path(__file__).resolve().parents[2]
+IN_TREE = (_TREE / "lcmtypes").is_dir()
+ROOT = _TREE if IN_TREE else Path.cwd()  # what is made lies below it
+BUILD = Path(os.environ.get("LIMPHOME_BUILD", ROOT / "build"))
+RUNS = ROOT / "runs"
+
+
+def _shared():
+    """Folder of the files that come along: the tree's, else beside the controller in PATH."""
+    if IN_TREE:
+        return _TREE
+    controller = shutil.which("limphome-controller")
+    prefix = Path(controller).resolve().parents[1] if controller else Path(sys.prefix)
+    return prefix / "share" / "limphome"
+
+
+CONFIG = _shared() / "config"
+LCMTYPES = _shared() / "lcmtypes"
+
+
+def program(name):
+    """File of the program limphome-NAME: the build's, else the first in PATH."""
+    places = os.pathsep.join([str(BUILD / "bin"), os.environ.get("PATH", os.defpath)])
+    found = shutil.which(f"limphome-{name}", path=places)
+    if found is None:
+        raise Ending(f"limphome-{name} is neither in {BUILD}/bin nor in PATH; LIMPHOME_BUILD can name a build")
+    return Path(found)
+
+
+def shown(path):
+    """`path` as a person would type it: relative where it lies below the working directory."""
+    path = Path(path).absolute()
+    return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else str(path)

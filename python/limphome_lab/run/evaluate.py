@@ -1,0 +1,59 @@
+"""Command evaluate: drives with the policy of a run, greedily and without learning."""
+
+import json
+import shutil
+import sys
+
+from limphome_lab import command, network, runfolder
+from limphome_lab.ending import with_exit_code
+from limphome_lab.run.pair import Pair
+from limphome_lab.run.processes import raise_on_signals
+from limphome_lab.show.progress import Progress
+from limphome_lab.show.summary import summarise, table
+
+EPISODES = 50
+
+
+def parse_arguments():
+    parser = command.parser(
+        "evaluate",
+        "Drives with the policy of a run, greedily and without learning; leaves RUN/evaluation/.",
+        "runs/paper-seed1-20250131-120000 --episodes 20",
+    )
+    parser.add_argument("run", metavar="RUN", help="run folder")
+    parser.add_argument("--episodes", type=int, default=EPISODES, help=f"how many; default {EPISODES}")
+    parser.add_argument("--json", action="store_true", help="print JSON instead of a table")
+    parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
+    return parser.parse_args()
+
+
+def evaluation_folder(trained, episodes):
+    """RUN/evaluation/, made anew: it holds nothing but what an earlier evaluation left."""
+    settings = [f"learning.episodes={episodes}", "simulator.pace=lockstep"]
+    runfolder.resolve_settings(trained.config, settings)  # refused before the earlier evaluation is removed
+    out = trained.path / "evaluation"
+    shutil.rmtree(out, ignore_errors=True)
+    return runfolder.create(out, trained.config, trained.robot, settings)
+
+
+def evaluate(folder, policy, url, episodes):
+    tail = runfolder.EpisodeTail(folder.episodes)
+    with Pair(folder, url, ["--evaluate", policy]) as pair:
+        pair.run(tail, Progress(episodes, quiet=not sys.stderr.isatty()))
+    return summarise(folder.read_episodes())
+
+
+@with_exit_code
+def main():
+    args = parse_arguments()
+    url = network.enter(args.network)
+    raise_on_signals()
+    trained = runfolder.existing(args.run, "policy")
+    folder = evaluation_folder(trained, args.episodes)
+    summary = evaluate(folder, trained.policy, url, args.episodes)
+    print(json.dumps(summary, indent=2) if args.json else table(summary))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

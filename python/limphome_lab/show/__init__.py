@@ -1,0 +1,1 @@
+"""Figures, progress and the messages of a run."""

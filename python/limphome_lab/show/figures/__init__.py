@@ -1,0 +1,21 @@
+"""The figures of a run, one per file: the paper's Figs. 7, 8 and 9, and how learning went."""
+
+from limphome_lab.messages import episode_states
+from limphome_lab.show.figures import learning, motion, reward, style, trajectories
+
+FIRST, LAST = 0, -1  # as episode_states understands them
+
+
+def draw_all(folder):
+    """Draws every figure of a run into its figures/ folder; returns the files."""
+    episodes = folder.read_episodes()
+    recorded = episode_states(folder.messages, {FIRST, LAST})
+    goal_distance = float(folder.settings()["episode"]["goal_distance_m"])
+    figures = {
+        "fig7_trajectories": trajectories.draw(recorded[FIRST], recorded[LAST], goal_distance),
+        "fig8_reward": reward.draw(episodes),
+        "fig9_motion": motion.draw(folder.robot, *recorded[LAST]),
+        "fig_learning": learning.draw(episodes),
+    }
+    folder.figures.mkdir(exist_ok=True)
+    return [style.save(figure, folder.figures / f"{name}.png") for name, figure in figures.items()]

@@ -1,0 +1,139 @@
+"""Fig. 9: how the robot moves in one episode, at a few times, seen from the side and from above.
+
+The frame is that of the episode: forward is the way it faced at the start, left is across it. The side view is from
+the side of the failed crawler; from the left, forward points to the left.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.patches import Polygon
+
+from limphome_lab.show.figures import style
+from limphome_lab.urdf import Robot
+
+SNAPSHOTS = 5
+FORWARD, LEFT, UP = 0, 1, 2  # columns of points here
+COLOURS = {"base": "#6b7784", "upper_body": "#b9c4cf"}
+CRAWLER = "#3d454d"
+ARM = style.ORANGE
+
+
+def draw(urdf, episode, states):
+    robot = Robot(urdf)
+    chosen = [states[i] for i in np.unique(np.linspace(0, len(states) - 1, SNAPSHOTS).round().astype(int))]
+    poses = [_parts(robot, episode, state) for state in chosen]
+    points = np.vstack([part.points for parts in poses for part, _ in parts])
+    low, high = points.min(axis=0) - 0.25, points.max(axis=0) + 0.25
+    low, high = np.minimum(low, [-1, -1, -0.15]), np.maximum(high, [episode.goal_distance + 0.3, 1, 1.5])
+
+    span = high - low
+    panel = 3.2  # width [in]
+    heights = [panel * span[UP] / span[FORWARD], panel * span[LEFT] / span[FORWARD]]
+    figure, axes = plt.subplots(
+        2,
+        len(chosen),
+        figsize=(panel * len(chosen) + 0.6, sum(heights) + 1.6),
+        height_ratios=heights,
+        sharex=True,
+        sharey="row",
+        squeeze=False,
+        layout="constrained",
+    )
+    from_left = _failed_side(poses[0]) >= 0
+    begin = episode.utime * 1e-6 - episode.duration
+    for (side, above), state, parts in zip(axes.T, chosen, poses, strict=True):
+        _view(side, parts, across=UP, nearness=lambda points: points[:, LEFT] if from_left else -points[:, LEFT])
+        _view(above, parts, across=LEFT, nearness=lambda points: points[:, UP])
+        _surroundings(side, above, episode)
+        side.set_title(f"{state.utime * 1e-6 - begin:.1f} s")
+        side.set(xlim=(low[FORWARD], high[FORWARD]), ylim=(low[UP], high[UP]))
+        above.set(xlabel="forward [m]", ylim=(low[LEFT], high[LEFT]))
+    if from_left:
+        axes[0, 0].invert_xaxis()  # both rows share it
+        axes[1, 0].invert_yaxis()
+    axes[0, 0].set_ylabel(f"from the {'left' if from_left else 'right'}:\nup [m]")
+    axes[1, 0].set_ylabel("from above:\nleft [m]")
+    _legend(figure, episode, [colour for _, colour in poses[-1]])
+    return figure
+
+
+def _parts(robot, episode, state):
+    """[(part with its corners in the episode's frame, colour)]"""
+    failed = {name for name, health in zip(robot.actuators, state.actuator_health, strict=False) if health != 0}
+    parts = []
+    for part in robot.posed(state.position, state.orientation, state.actuator_position):
+        seen = style.episode_frame(part.points, episode.start, episode.start_heading)
+        part.points = np.column_stack([seen[:, 1], -seen[:, 0], seen[:, 2]])
+        parts.append((part, _colour(robot, part.name, failed)))
+    return parts
+
+
+def _failed_side(parts):
+    """How far to the left the failed crawler lies [m]; 0 where none has failed."""
+    return next((part.points[:, LEFT].mean() for part, colour in parts if colour == style.RED), 0.0)
+
+
+def _colour(robot, name, failed):
+    if name in failed:
+        return style.RED
+    if name in robot.crawlers:
+        return CRAWLER
+    return COLOURS.get(name, ARM)
+
+
+def _view(axes, parts, across, nearness):
+    """Outlines of all parts, those nearest to the eye last."""
+    axes.set_aspect("equal")
+    for part, colour in sorted(parts, key=lambda each: nearness(each[0].points).mean()):
+        axes.add_patch(
+            Polygon(
+                convex_hull(part.points[:, [FORWARD, across]]),
+                closed=True,
+                facecolor=colour,
+                edgecolor="white",
+                linewidth=0.8,
+                zorder=3,
+            )
+        )
+
+
+def _surroundings(side, above, episode):
+    side.axhspan(-10, 0, color="#d9cfc1", zorder=1)
+    side.axhline(0, color="#8a7a64", linewidth=1.2, zorder=2)
+    for axes in (side, above):
+        axes.axvline(episode.goal_distance, color=style.GREEN, linestyle="--", linewidth=1.4, zorder=2)
+
+
+def _legend(figure, episode, colours):
+    labels = {
+        style.RED: "failed crawler",
+        CRAWLER: "crawler",
+        COLOURS["base"]: "chassis",
+        COLOURS["upper_body"]: "upper body",
+        ARM: "boom and arm",
+    }
+    handles = [
+        Polygon([(0, 0)], facecolor=colour, label=label) for colour, label in labels.items() if colour in colours
+    ]
+    handles.append(plt.Line2D([], [], color=style.GREEN, linestyle="--", label="goal line"))
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
+    figure.suptitle(f"Motion of the robot in episode {episode.episode}")
+
+
+def convex_hull(points):
+    """Corners of the convex hull of [n x 2] points, counter-clockwise (Andrew's monotone chain)."""
+    points = sorted(map(tuple, points))
+
+    def chain(ordered):
+        hull = []
+        for point in ordered:
+            while len(hull) > 1 and _cross(hull[-2], hull[-1], point) <= 0:
+                hull.pop()
+            hull.append(point)
+        return hull[:-1]
+
+    return np.array(chain(points) + chain(reversed(points)))
+
+
+def _cross(a, b, c):
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])

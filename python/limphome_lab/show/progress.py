@@ -1,0 +1,83 @@
+"""How far a training run has come: a live line on a terminal, else a line now and then."""
+
+import shutil
+import statistics
+import sys
+import time
+from collections import deque
+
+RECENT = 50  # episodes in the running figures
+TERMINAL_EVERY_S = 0.2
+LINE_EVERY_S = 10.0
+BAR_WIDTH = 24
+
+
+def clock(seconds):
+    minutes, seconds = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02}:{seconds:02}" if hours else f"{minutes}:{seconds:02}"
+
+
+class Progress:
+    """Feed it rows of episodes.csv as they come; those up to episode `done` are of an earlier part of the run."""
+
+    def __init__(self, total, done=0, quiet=False, stream=sys.stderr):
+        self.total = total
+        self.done = done
+        self.quiet = quiet
+        self.stream = stream
+        self.live = stream.isatty()
+        self.began = time.monotonic()
+        self.simulated_s = 0.0
+        self.recent = deque(maxlen=RECENT)  # (episode, wall time at which it was seen)
+        self.shown_at = float("-inf") if self.live else self.began
+
+    def update(self, episodes):
+        now = time.monotonic()
+        for episode in episodes:
+            if episode.episode <= self.done:
+                continue
+            self.done = episode.episode
+            self.simulated_s += episode.duration_s
+            self.recent.append((episode, now))
+        if not self.quiet and now - self.shown_at >= (TERMINAL_EVERY_S if self.live else LINE_EVERY_S):
+            self._show(now)
+
+    def close(self):
+        """Shows the last state and leaves the line."""
+        if not self.quiet:
+            self._show(time.monotonic())
+            if self.live:
+                self.stream.write("\n")
+
+    def _show(self, now):
+        self.shown_at = now
+        text = self.text(now)
+        if self.live:
+            width = shutil.get_terminal_size().columns - 1
+            self.stream.write(f"\r{text[:width]:<{width}}")
+        else:
+            self.stream.write(f"{text}\n")
+        self.stream.flush()
+
+    def text(self, now):
+        share = min(self.done / self.total, 1.0)
+        filled = round(share * BAR_WIDTH)
+        bar = "#" * filled + "." * (BAR_WIDTH - filled)
+        text = f"episode {self.done:>{len(str(self.total))}}/{self.total} [{bar}]"
+        if not self.recent:
+            return f"{text} {clock(now - self.began)}"
+        episodes = [episode for episode, _ in self.recent]
+        goals = sum(episode.outcome == "goal" for episode in episodes) / len(episodes)
+        reward = statistics.median(episode.reward for episode in episodes)
+        factor = self.simulated_s / max(now - self.began, 1e-3)
+        return (
+            f"{text} last {len(episodes)}: goals {goals:4.0%}, reward {reward:7.2f} | {factor:4.0f}x real time, "
+            f"{clock(now - self.began)}, {self._left(now)} left"
+        )
+
+    def _left(self, now):
+        """Time left at the pace of the recent episodes, which get shorter as the robot learns."""
+        since = self.recent[0][1] if len(self.recent) == RECENT else self.began
+        pace = max(now - since, 1e-3) / len(self.recent)
+        return clock((self.total - self.done) * pace)

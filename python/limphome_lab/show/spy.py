@@ -1,0 +1,50 @@
+"""Command spy: the messages of a running pair, in a window (lcm-spy) or as text."""
+
+import os
+import sys
+from pathlib import Path
+
+from limphome_lab import command, network, paths, registry
+from limphome_lab.ending import with_exit_code
+from limphome_lab.runfolder import InputError
+
+
+def parse_arguments():
+    parser = command.parser("spy", "Shows the messages of a running pair: lcm-spy with our types decoded.", "--text")
+    parser.add_argument("run", metavar="RUN", nargs="?", help="run folder of the pair; default: the one started last")
+    parser.add_argument("--text", action="store_true", help="in this terminal, without Java or a display")
+    return parser.parse_args()
+
+
+def find_pair(run):
+    """Entry in the registry of the pair to watch."""
+    pairs = registry.running()
+    if not pairs:
+        raise InputError(f"nothing is running; start {command.called('train')} or {command.called('launch')} first")
+    if run is None:
+        return pairs[0]
+    wanted = str(Path(run).absolute())
+    for pair in pairs:
+        if pair["run"] == wanted:
+            return pair
+    listed = "\n".join(f"  {paths.shown(pair['run'])}" for pair in pairs)
+    raise InputError(f"{run} is not running; these are:\n{listed}")
+
+
+@with_exit_code
+def main():
+    args = parse_arguments()
+    pair = find_pair(args.run)
+    if args.text:
+        words = [sys.executable, "-m", "limphome_lab.show.spy_text", pair["url"]]
+    else:
+        from limphome_lab.show.spy_window import window_command
+
+        words = window_command(pair["url"])
+    print(f"watching {paths.shown(pair['run'])}", file=sys.stderr, flush=True)
+    words = [*network.join_prefix(pair["pid"]), *words]
+    os.execvp(words[0], words)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,1 +1,0 @@
-"""What the scripts beside this package do, one topic per file."""

@@ -1,0 +1,57 @@
+"""Reading a table while it is written."""
+
+from dataclasses import fields
+
+import pytest
+
+from limphome_lab.runfolder import Episode, EpisodeTail, InputError
+
+HEADER = ",".join(field.name for field in fields(Episode)) + "\n"
+
+
+def row(number):
+    return f"{number},goal,20,10.0,1.0,0,0,0,0,0.1,0,1\n"
+
+
+@pytest.fixture
+def table(tmp_path):
+    path = tmp_path / "episodes.csv"
+    path.write_text(HEADER)
+    return path
+
+
+def append(path, text):
+    with open(path, "a") as file:
+        file.write(text)
+
+
+def numbers(episodes):
+    return [episode.episode for episode in episodes]
+
+
+def test_tail_of_a_file_that_is_not_there_yet(tmp_path):
+    assert EpisodeTail(tmp_path / "none.csv").read_new() == []
+
+
+def test_tail_gives_each_row_once_and_only_when_complete(table):
+    tail = EpisodeTail(table)
+    assert tail.read_new() == []
+    append(table, row(1) + row(2)[:9])
+    assert numbers(tail.read_new()) == [1]
+    append(table, row(2)[9:] + row(3))
+    assert numbers(tail.read_new()) == [2, 3]
+    assert tail.read_new() == []
+
+
+def test_tail_begins_anew_where_the_file_was_cut(table):
+    tail = EpisodeTail(table)
+    append(table, row(1) + row(2) + row(3))
+    tail.read_new()
+    table.write_text(HEADER + row(1))
+    assert numbers(tail.read_new()) == [1]
+
+
+def test_table_with_another_header_is_refused(table):
+    table.write_text("episode,reward\n1,2\n")
+    with pytest.raises(InputError, match="header"):
+        EpisodeTail(table).read_new()
