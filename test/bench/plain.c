@@ -43,7 +43,7 @@ static void fill_inputs(int32_t k, int32_t action, REAL *x) {
 
 static REAL squared_distance(const REAL *x, int32_t j) {
     REAL sum = 0;
-    for (int32_t i = 0; i < num_inputs; ++i) {
+    for (int32_t i = 0; i < num_inputs; ++i) { /* NOLINTNEXTLINE(clang-analyzer-core.*): fill_inputs has set as many */
         REAL difference = x[i] - network.centre[j][i];
         sum += difference * difference;
     }
