@@ -11,7 +11,7 @@ namespace {
 constexpr double edge_radius = 0.03;  // of steps [m]
 
 std::vector<double> draw(RandomStream stream, double low, double high) {
-    std::vector<double> values(Lattice::size * Lattice::size);
+    std::vector<double> values(std::size_t{Lattice::size} * Lattice::size);
     std::generate(values.begin(), values.end(), [&] { return stream.uniform(low, high); });
     return values;
 }
@@ -108,7 +108,7 @@ Clearance Ground::clearance(const Eigen::Vector3d &point, int piece) const {
 }
 
 Clearance Ground::clearance(const Eigen::Vector3d &point) const {
-    const Clearance base = over_base(point);
+    Clearance base = over_base(point);
     if (pieces() == 1) {
         return base;
     }

@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 namespace limphome {
 namespace {
@@ -229,7 +230,7 @@ FreeJoint Reader::take_joint(const TiXmlElement &element, Actuator &actuator) {
     if (model_.actuators.size() == max_actuators) {
         refuse(describe(element), "there are more than " + std::to_string(max_actuators) + " actuators");
     }
-    const FreeJoint taken = found->second;
+    FreeJoint taken = std::move(found->second);
     free_joints_.erase(found);
     const std::string joint = "<joint name=\"" + name + "\">";
     const urdf::JointLimitsSharedPtr &limits = taken.joint->limits;

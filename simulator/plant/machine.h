@@ -69,11 +69,6 @@ class Machine {
     // time step and actuator. 0: nothing is simulated, or counted.
     virtual double simulated_time() const { return 0; }
     virtual int64_t saturated() const { return 0; }
-
-   protected:
-    Machine() = default;
-    Machine(const Machine &) = default;
-    Machine &operator=(const Machine &) = default;
 };
 
 }  // namespace limphome
