@@ -29,13 +29,13 @@ extern "C" {
 typedef struct lh_network_config {
     int32_t units;        /* 1 to LH_MAX_UNITS; paper: 50 */
     int32_t inputs;       /* 1 to LH_MAX_INPUTS; paper: 10 */
-    float rate_weight;    /* alpha_w of (19), 0 to 10; paper: 0.1 */
-    float rate_width;     /* alpha_sigma of (20), 0 to 10; paper: 0.01 */
-    float rate_centre;    /* alpha_mu of (21), 0 to 10; paper: 0.1 */
+    float rate_weight;    /* alpha_w of (19), 0 to LH_NETWORK_RATE_MAX; paper: 0.1 */
+    float rate_width;     /* alpha_sigma of (20), 0 to LH_NETWORK_RATE_MAX; paper: 0.01 */
+    float rate_centre;    /* alpha_mu of (21), 0 to LH_NETWORK_RATE_MAX; paper: 0.1 */
     float initial_weight; /* w_j, |.| up to weight_limit; default 0 */
-    float initial_width;  /* sigma_j, width_floor to 100; paper: 1.0 */
-    float width_floor;    /* least sigma_j, 0.01 to 1; default 0.05 */
-    float weight_limit;   /* largest |w_j|, 1 to 1e6; default 1e4 */
+    float initial_width;  /* sigma_j, width_floor to LH_INITIAL_WIDTH_MAX; paper: 1.0 */
+    float width_floor;    /* least sigma_j, LH_WIDTH_FLOOR_MIN to LH_WIDTH_FLOOR_MAX; default 0.05 */
+    float weight_limit;   /* largest |w_j|, LH_WEIGHT_LIMIT_MIN to LH_WEIGHT_LIMIT_MAX; default 1e4 */
     /* false: (19)-(21) as printed. true: the derivative of (15) by (13)(14), which has alpha delta for
      * alpha^2 delta in all three and a factor 2 in (20) and (21). */
     bool exact_gradient;

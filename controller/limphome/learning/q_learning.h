@@ -20,9 +20,9 @@ extern "C" {
 #define LH_DISCOUNT_RATE_MAX 1.0f
 
 typedef struct lh_q_learning_config {
-    float learning_rate;       /* alpha of (2), 0 to 1; paper: 0.1 */
-    float discount_rate;       /* gamma of (1), 0 to 1; paper: 0.9 */
-    float temperature_floor;   /* least T of (4), 1e-4 to 10; default 0.01 */
+    float learning_rate;       /* alpha of (2), 0 to LH_LEARNING_RATE_MAX; paper: 0.1 */
+    float discount_rate;       /* gamma of (1), 0 to LH_DISCOUNT_RATE_MAX; paper: 0.9 */
+    float temperature_floor;   /* least T of (4), LH_TEMPERATURE_FLOOR_MIN to _MAX; default 0.01 */
     lh_network_config network; /* inputs = state inputs + controlled actuators; lh_learner_init sets it */
 } lh_q_learning_config;
 

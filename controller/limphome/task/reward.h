@@ -14,14 +14,14 @@ extern "C" {
 #define LH_LEAST_MARGIN (-5.0f) /* [m]; keeps exp(-S) of (12) in bounds whatever the posture */
 
 typedef struct lh_reward_config {
-    float forward;      /* eta of (8) [1/m], 0 to 1000; paper: 8 */
-    float sideways;     /* lambda of (8) [1/m], 0 to 1000; paper: 2 */
-    float turn;         /* tau of (8) [1/rad], 0 to 1000; paper: 10 */
+    float forward;      /* eta of (8) [1/m], 0 to LH_REWARD_MAX; paper: 8 */
+    float sideways;     /* lambda of (8) [1/m], 0 to LH_REWARD_MAX; paper: 2 */
+    float turn;         /* tau of (8) [1/rad], 0 to LH_REWARD_MAX; paper: 10 */
     bool heading_error; /* phi of (8): false, change of heading over the step; true, heading at its end against the
                            direction of the episode */
-    float goal;         /* zeta of (9), 0 to 1000; paper: 10 */
-    float stability;    /* rho of (12), 0 to 1000; paper: 1 */
-    float tumble;       /* -1000 to 0; paper: -10 */
+    float goal;         /* zeta of (9), 0 to LH_REWARD_MAX; paper: 10 */
+    float stability;    /* rho of (12), 0 to LH_REWARD_MAX; paper: 1 */
+    float tumble;       /* -LH_REWARD_MAX to 0; paper: -10 */
 } lh_reward_config;
 
 /* The terms of one step, or their sums over an episode. */

@@ -17,9 +17,9 @@ extern "C" {
 #endif
 
 typedef struct lh_task_config {
-    float crawler_speed;     /* of the forward and reverse levels, 0.01 to 2 m/s; paper: 0.3 */
-    float joint_speed;       /* of the forward and reverse levels, 0.01 to 2 rad/s; paper: 0.3 */
-    float support_tolerance; /* see lh_kinematics_posture, 0.001 to 1 m; default 0.03 */
+    float crawler_speed;     /* of the forward and reverse levels, LH_SPEED_MIN to LH_SPEED_MAX [m/s]; paper: 0.3 */
+    float joint_speed;       /* of the forward and reverse levels, LH_SPEED_MIN to LH_SPEED_MAX [rad/s]; paper: 0.3 */
+    float support_tolerance; /* LH_SUPPORT_TOLERANCE_MIN to _MAX of kinematics.h [m]; default 0.03 */
     lh_reward_config reward;
     lh_episode_config episode;
 } lh_task_config;
