@@ -18,12 +18,12 @@ static bool is_whole_multiple(double value, double other) {
 
 /* One actuator fails once; none may fail twice. */
 static bool is_another_actuator(double value, double other) {
-    return value != other || value == SETTINGS_FAILED_NONE;
+    return value != other || (int)value == SETTINGS_FAILED_NONE;
 }
 
 /* Only a crawler has a belt that can slip. */
 static bool is_mode_of(double mode, double actuator) {
-    return mode != SETTINGS_SLIPPING || actuator < SETTINGS_FAILED_JOINT;
+    return (int)mode != SETTINGS_SLIPPING || (int)actuator < SETTINGS_FAILED_JOINT;
 }
 
 /* Refused with "[section] key = value: must be [section] other = value". The enumerators of a choice count as numbers.

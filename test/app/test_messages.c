@@ -31,14 +31,14 @@ static message_verdict judge_state(const limphome_robot_state_t *state, int surp
     unsigned char bytes[SIZE] = {0};
     const int size = limphome_robot_state_t_encode(bytes, 0, SIZE, state);
     limphome_robot_state_t decoded;
-    return message_decode_state(bytes, (size_t)(size + surplus), &decoded);
+    return message_decode_state(bytes, (size_t)size + (size_t)surplus, &decoded);
 }
 
 static message_verdict judge_policy(const limphome_policy_t *policy, int surplus) {
     unsigned char bytes[SIZE] = {0};
     const int size = limphome_policy_t_encode(bytes, 0, SIZE, policy);
     limphome_policy_t decoded;
-    return message_decode_policy(bytes, (size_t)(size + surplus), &decoded);
+    return message_decode_policy(bytes, (size_t)size + (size_t)surplus, &decoded);
 }
 
 START_TEST(good_messages_pass) {

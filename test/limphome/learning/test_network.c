@@ -237,7 +237,7 @@ START_TEST(what_is_not_finite_is_never_stored) {
         const lh_network before = network;
         /* all weights and widths and every centre */
         expect_held(learn(&network, &config, network_x[0], 0.1f, errors[k]), NETWORK_UNITS, NETWORK_UNITS,
-                    NETWORK_UNITS * NETWORK_INPUTS);
+                    (uint64_t)NETWORK_UNITS * NETWORK_INPUTS);
         ck_assert_mem_eq(&network, &before, sizeof network);
     }
     const float finite[] = {FLT_MAX, -FLT_MAX, 1e30f, -1e30f};

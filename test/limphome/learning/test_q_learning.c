@@ -205,9 +205,9 @@ START_TEST(non_finite_reward_is_not_learned) {
     ck_assert_uint_eq(learner.held.widths, LEARNER_UNITS);
     ck_assert_uint_eq(learner.held.centres, LEARNER_UNITS * (uint64_t)config.network.inputs);
     lh_q_learning_learn(&learner, learner_state[0], 0, NAN, 0.0f, false); /* they add up */
-    ck_assert_uint_eq(learner.held.weights, 2 * LEARNER_UNITS);
-    ck_assert_uint_eq(learner.held.widths, 2 * LEARNER_UNITS);
-    ck_assert_uint_eq(learner.held.centres, 2 * LEARNER_UNITS * (uint64_t)config.network.inputs);
+    ck_assert_uint_eq(learner.held.weights, UINT64_C(2) * LEARNER_UNITS);
+    ck_assert_uint_eq(learner.held.widths, UINT64_C(2) * LEARNER_UNITS);
+    ck_assert_uint_eq(learner.held.centres, UINT64_C(2) * LEARNER_UNITS * (uint64_t)config.network.inputs);
 }
 END_TEST
 

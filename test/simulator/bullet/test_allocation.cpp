@@ -13,14 +13,21 @@ std::atomic<long> allocations{0};
 
 }  // namespace
 
-#if defined(__SANITIZE_ADDRESS__) || !defined(__GLIBC__)
+#ifdef __has_feature
+#define SANITIZED __has_feature(address_sanitizer)
+#else
+#define SANITIZED 0
+#endif
+#if SANITIZED || defined(__SANITIZE_ADDRESS__) || !defined(__GLIBC__)
 #define CANNOT_COUNT "malloc belongs to somebody else here"
 #else
 extern "C" {
+// NOLINTBEGIN(bugprone-reserved-identifier): glibc's names
 void *__libc_malloc(std::size_t size);
 void *__libc_calloc(std::size_t count, std::size_t size);
 void *__libc_realloc(void *old, std::size_t size);
 void *__libc_memalign(std::size_t alignment, std::size_t size);
+// NOLINTEND(bugprone-reserved-identifier)
 
 void *malloc(std::size_t size) {
     allocations++;
