@@ -20,11 +20,11 @@
 
 namespace limphome {
 
-// Whether an actuator does what it is told; numbers of robot_state_t.actuator_health.
+// Whether an actuator does what it is told: robot_state_t.actuator_health.
 enum class Health : int8_t {
-    obeys = 0,
-    failed = 1,  // does not obey: locked, free or slipping
-    weak = 2     // obeys, with less than its rated torque
+    obeys = robot_state_t::OBEYS,
+    failed = robot_state_t::FAILED,  // does not obey: locked, free or slipping
+    weak = robot_state_t::WEAK       // obeys, with less than its rated torque
 };
 
 class Machine {
