@@ -35,8 +35,9 @@ class Machine {
     virtual int num_actuators() const = 0;
 
     // Puts the robot into its initial pose, at rest, and returns once it is there: on hardware that may take a while
-    // and a person. Called between episodes, never at the start: the machine begins where it is. What is drawn at
-    // random follows from `episode`, the number of the one that begins, 0 before the first.
+    // and a person. Called when a controller takes the machine up, between episodes and after a fault; not when the
+    // loop begins, the machine is where it is. What is drawn at random follows from `episode`, the number of the one
+    // that begins, 0 before the first.
     virtual void reset(int64_t episode) = 0;
 
     // Wanted rates from now on: belt speeds of the crawlers [m/s], then rates of the arm joints [rad/s]; entries from
