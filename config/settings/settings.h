@@ -23,7 +23,7 @@ extern "C" {
 #endif
 
 /* clang-format off */
-/* The enums of choices.def: settings_gradient, settings_turn, settings_failed, settings_failure_mode, settings_pace. */
+/* An enum settings_NAME for each choice of choices.def. */
 #define CHOICES(name) enum settings_##name {
 #define WORD(enumerator, word) enumerator,
 #define END_CHOICES(name) };

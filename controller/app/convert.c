@@ -84,6 +84,9 @@ lh_controlled convert_controlled(const limphome_robot_state_t *message) {
     return controlled;
 }
 
+/* So that a new one is told here and in convert_episode. */
+_Static_assert(sizeof(lh_reward) == 4 * sizeof(float), "decision_t and episode_t tell four terms of the reward");
+
 limphome_decision_t convert_decision(const lh_controller *c, const lh_decision *d,
                                      const limphome_robot_state_t *state) {
     const lh_observed *seen = &d->observed;

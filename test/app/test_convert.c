@@ -21,24 +21,39 @@ START_TEST(default_settings_are_the_librarys_defaults) {
     const settings s = settings_default();
     const lh_config config = convert_config(&s);
     const lh_config standard = lh_config_default();
-    ck_assert_float_eq(config.task.reward.forward, standard.task.reward.forward);
-    ck_assert_float_eq(config.task.reward.sideways, standard.task.reward.sideways);
-    ck_assert_float_eq(config.task.reward.turn, standard.task.reward.turn);
-    ck_assert_float_eq(config.task.reward.goal, standard.task.reward.goal);
-    ck_assert_float_eq(config.task.reward.stability, standard.task.reward.stability);
-    ck_assert_float_eq(config.task.reward.tumble, standard.task.reward.tumble);
-    ck_assert_int_eq(config.task.reward.heading_error, standard.task.reward.heading_error);
-    ck_assert_float_eq(config.task.episode.goal_distance, standard.task.episode.goal_distance);
-    ck_assert_float_eq(config.task.episode.tumble_tilt, standard.task.episode.tumble_tilt);
-    ck_assert_int_eq(config.task.episode.step_limit, standard.task.episode.step_limit);
-    ck_assert_int_eq(config.task.episode.reset_every, standard.task.episode.reset_every);
-    ck_assert_float_eq(config.learner.q_learning.learning_rate, standard.learner.q_learning.learning_rate);
-    ck_assert_float_eq(config.learner.q_learning.discount_rate, standard.learner.q_learning.discount_rate);
-    ck_assert_float_eq(config.learner.q_learning.network.width_floor, standard.learner.q_learning.network.width_floor);
-    ck_assert_float_eq(config.learner.q_learning.network.weight_limit,
-                       standard.learner.q_learning.network.weight_limit);
-    ck_assert_float_eq(config.learner.q_learning.network.rate_centre, standard.learner.q_learning.network.rate_centre);
-    ck_assert_int_eq(config.learner.q_learning.network.units, standard.learner.q_learning.network.units);
+#define SAME(field) ck_assert_double_eq((double)config.field, (double)standard.field)
+    SAME(task.crawler_speed);
+    SAME(task.joint_speed);
+    SAME(task.support_tolerance);
+    SAME(task.reward.forward);
+    SAME(task.reward.sideways);
+    SAME(task.reward.turn);
+    SAME(task.reward.heading_error);
+    SAME(task.reward.goal);
+    SAME(task.reward.stability);
+    SAME(task.reward.tumble);
+    SAME(task.episode.goal_distance);
+    SAME(task.episode.step_limit);
+    SAME(task.episode.tumble_tilt);
+    SAME(task.episode.reset_every);
+    SAME(learner.kind);
+    SAME(learner.seed);
+    SAME(learner.learn);
+    SAME(learner.greedy);
+    SAME(learner.q_learning.learning_rate);
+    SAME(learner.q_learning.discount_rate);
+    SAME(learner.q_learning.temperature_floor);
+    SAME(learner.q_learning.network.units);
+    SAME(learner.q_learning.network.inputs);
+    SAME(learner.q_learning.network.rate_weight);
+    SAME(learner.q_learning.network.rate_width);
+    SAME(learner.q_learning.network.rate_centre);
+    SAME(learner.q_learning.network.initial_weight);
+    SAME(learner.q_learning.network.initial_width);
+    SAME(learner.q_learning.network.width_floor);
+    SAME(learner.q_learning.network.weight_limit);
+    SAME(learner.q_learning.network.exact_gradient);
+#undef SAME
     ck_assert_int_eq(lh_config_validate(&config), LH_OK);
 }
 END_TEST

@@ -12,9 +12,21 @@ static bool finite(const float *values, int32_t count) {
     return good;
 }
 
+/* Every term is finite where their sum is. */
 static bool finite_reward(const lh_reward *reward) {
-    const float terms[] = {reward->motion, reward->goal, reward->stability, reward->tumble};
-    return finite(terms, 4);
+    return lh_finite(lh_reward_total(reward));
+}
+
+/* What each kind of learner keeps to, beside what all do. */
+static void expect_sound_learner(const lh_learner *learner, int32_t episode) {
+    switch (learner->kind) {
+        case LH_Q_LEARNING: {
+            const lh_q_learning *kind = &learner->as.q_learning;
+            FUZZ_EXPECT(lh_learner_temperature(learner, episode) >= kind->config.temperature_floor);
+            FUZZ_EXPECT(lh_network_validate(&kind->network, &kind->config.network) == LH_OK);
+            break;
+        }
+    }
 }
 
 static void expect_sound_summary(const lh_controller *controller, const lh_summary *summary) {
@@ -23,17 +35,16 @@ static void expect_sound_summary(const lh_controller *controller, const lh_summa
     FUZZ_EXPECT(finite(values, 6) && finite_reward(&summary->total));
     FUZZ_EXPECT(summary->steps >= 1 && summary->steps <= controller->task.config.episode.step_limit);
     FUZZ_EXPECT(summary->outcome > LH_OUTCOME_NONE && summary->outcome <= LH_OUTCOME_TIMEOUT);
-    FUZZ_EXPECT(lh_learner_temperature(&controller->learner, summary->number) >=
-                controller->learner.as.q_learning.config.temperature_floor);
+    expect_sound_learner(&controller->learner, summary->number);
 }
 
 static void expect_sound_choice(const lh_controller *controller, const lh_decision *decision) {
     const lh_choice *choice = &decision->choice;
-    FUZZ_EXPECT(choice->action >= 0 && choice->action < controller->learner.as.q_learning.num_actions);
+    FUZZ_EXPECT(choice->action >= 0 && choice->action < lh_action_count(controller->task.controlled.count));
     FUZZ_EXPECT(lh_finite(choice->q) && lh_finite(choice->q_max) && choice->q <= choice->q_max);
     FUZZ_EXPECT(choice->probability > 0.0f && choice->probability <= 1.0f);
-    FUZZ_EXPECT(decision->choice.temperature >= controller->learner.as.q_learning.config.temperature_floor);
-    FUZZ_EXPECT(decision->observed.num_inputs == controller->learner.as.q_learning.num_states);
+    FUZZ_EXPECT(choice->temperature == lh_learner_temperature(&controller->learner, decision->observed.episode));
+    FUZZ_EXPECT(decision->observed.num_inputs == controller->task.controlled.count + 2);
     for (int32_t k = 0; k < controller->task.robot.num_actuators; k++) {
         FUZZ_EXPECT(lh_within(decision->velocity[k], -2.0f, 2.0f));
     }
@@ -52,8 +63,7 @@ static void expect_sound(const lh_controller *controller, const lh_decision *dec
     if (!decision->observed.reset) {
         expect_sound_choice(controller, decision);
     }
-    const lh_q_learning *learner = &controller->learner.as.q_learning;
-    FUZZ_EXPECT(lh_network_validate(&learner->network, &learner->config.network) == LH_OK);
+    expect_sound_learner(&controller->learner, decision->observed.episode);
 }
 
 void fuzz_step(lh_controller *controller, const lh_state *state) {

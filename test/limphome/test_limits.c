@@ -135,7 +135,13 @@ START_TEST(extremes_leave_finite_numbers_within_their_limits) {
     config.learner.q_learning.network.exact_gradient = true;
     config.learner.q_learning.network.weight_limit = 1e6f;
     config.learner.q_learning.network.width_floor = 0.01f;
-    config.task.reward = (lh_reward_config){1000.0f, 1000.0f, 1000.0f, true, 1000.0f, 1000.0f, -1000.0f};
+    config.task.reward = (lh_reward_config){.forward = 1000.0f,
+                                            .sideways = 1000.0f,
+                                            .turn = 1000.0f,
+                                            .heading_error = true,
+                                            .goal = 1000.0f,
+                                            .stability = 1000.0f,
+                                            .tumble = -1000.0f};
     config.learner.q_learning.temperature_floor = 1e-4f;
     lh_random random;
     lh_random_init(&random, 4);

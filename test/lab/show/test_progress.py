@@ -8,7 +8,8 @@ from limphome_lab.show import progress
 
 def episode(number):
     outcome = "goal" if number % 2 else "timeout"
-    return Episode(number, outcome, 20, 10.0, 1.0, 0, 0, 0, 0, 0.1, 0, 1)
+    known = {"episode": number, "outcome": outcome, "duration_s": 10.0, "reward": 1.0}
+    return Episode(**dict.fromkeys(Episode.__annotations__, 0) | known)
 
 
 def test_progress_of_a_resumed_run_counts_from_its_checkpoint():

@@ -7,7 +7,14 @@ from limphome_lab.show.summary import summarise
 
 
 def episode(number, outcome, duration, reward, lateral):
-    return Episode(number, outcome, round(duration * 2), duration, reward, 0, 0, 0, 0, lateral, 0, 1)
+    known = {
+        "episode": number,
+        "outcome": outcome,
+        "duration_s": duration,
+        "reward": reward,
+        "lateral_error_m": lateral,
+    }
+    return Episode(**dict.fromkeys(Episode.__annotations__, 0) | known)
 
 
 def test_summary():
