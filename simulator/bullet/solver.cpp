@@ -87,9 +87,9 @@ void Solver::prepare_contacts(const std::vector<Contact> &contacts, double time_
         row.push = contact.depth > 0 ? share * contact.depth : contact.depth / time_step;
         row.normal_step = 1 / (row.effect(0, 0) + compliance_);
         const Eigen::Matrix2d tangential = row.effect.bottomRightCorner<2, 2>();
-        row.sticking = tangential.inverse();
+        row.tangents.sticking = tangential.inverse();
         const double mean = 0.5 * tangential.trace(), half = 0.5 * (tangential(0, 0) - tangential(1, 1));
-        row.slip_step = 1 / (mean + std::sqrt(half * half + tangential(0, 1) * tangential(0, 1)));
+        row.tangents.slip_step = 1 / (mean + std::sqrt(half * half + tangential(0, 1) * tangential(0, 1)));
     }
 }
 
@@ -149,20 +149,8 @@ double Solver::relax(Contact &contact, const ContactRow &row) {
         contact.impulse[0] + row.normal_step * (row.push - relative[0] - compliance_ * contact.impulse[0]), 0.0);
     change[0] = normal - contact.impulse[0];
     const Eigen::Vector2d slip = relative.tail<2>() + row.effect.block<2, 1>(1, 0) * change[0];
-
-    // Stick if friction is able to hold. Else project onto its limit: with the same step for all directions this is at
-    // rest only where friction opposes the slip, which clamping each direction by its own effective mass is not.
     const Eigen::Vector2d friction = contact.impulse.tail<2>();
-    const double limit = contact.friction * normal;
-    Eigen::Vector2d wanted = friction - row.sticking * slip;
-    if (wanted.squaredNorm() > limit * limit) {
-        wanted = friction - row.slip_step * slip;
-        const double size = wanted.norm();
-        if (size > limit) {
-            wanted *= limit / size;
-        }
-    }
-    change.tail<2>() = wanted - friction;
+    change.tail<2>() = friction_impulse(row.tangents, friction, slip, contact.friction * normal) - friction;
     velocity_.head<dofs>() += row.response.topRows<dofs>().lazyProduct(change);
     contact.impulse += change;
     return row.effect.diagonal().cwiseProduct(change).cwiseAbs().maxCoeff();

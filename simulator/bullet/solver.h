@@ -2,12 +2,13 @@
 //
 // Drives that reach their wanted rate are taken out of the equations exactly; what is left, the base with a few
 // contacts, is solved by projected Gauss-Seidel: each contact in turn is brought to a state that fulfils the law of its
-// ground spring and Coulomb's law of friction, with friction opposite to the slip.
+// ground spring and the law of friction (friction.h).
 #pragma once
 
 #include <vector>
 
 #include "bullet/contact.h"
+#include "bullet/friction.h"
 #include "bullet/mass_matrix.h"
 #include "model/drive.h"
 
@@ -28,10 +29,9 @@ class Solver {
         Eigen::Matrix<double, max_dofs, 3> response;  // velocities per unit impulse along each axis
         Eigen::Matrix3d effect;                       // relative velocity per unit impulse
         Eigen::Vector3d steady;                       // relative velocity from joints that keep their rates [m/s]
-        Eigen::Matrix2d sticking;                     // inverse of its tangential block
         double push;                                  // [m/s]
         double normal_step;                           // impulse per lack of velocity along the normal [kg]
-        double slip_step;                             // impulse per slip velocity in the projection [kg]
+        Tangents tangents;
     };
 
     void hold_joints(const std::vector<JointConstraint> &joints);

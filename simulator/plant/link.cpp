@@ -1,5 +1,7 @@
 #include "plant/link.h"
 
+#include <limphome_channels.h>
+
 #include <poll.h>
 #include <sys/random.h>
 
@@ -10,8 +12,6 @@
 #include <limits>
 #include <stdexcept>
 #include <system_error>
-
-#include "limphome_channels.h"
 
 namespace limphome {
 

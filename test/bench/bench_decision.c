@@ -25,12 +25,12 @@ static void pose(problem *p, int32_t num_controlled) {
         abort();
     }
     lh_random *random = &p->learner.random;
-    for (int32_t j = 0; j < UNITS; ++j) {
+    for (int32_t j = 0; j < UNITS; j++) {
         p->learner.network.weight[j] = 2.0f * lh_random_uniform(random) - 1.0f;
         p->learner.network.width[j] = 0.7f + 0.6f * lh_random_uniform(random);
     }
-    for (int32_t k = 0; k < SITUATIONS; ++k) {
-        for (int32_t i = 0; i < p->num_states; ++i) {
+    for (int32_t k = 0; k < SITUATIONS; k++) {
+        for (int32_t i = 0; i < p->num_states; i++) {
             p->states[k][i] = lh_random_uniform(random);
         }
     }
@@ -39,7 +39,7 @@ static void pose(problem *p, int32_t num_controlled) {
 static double seconds_per_decision(const method *m, const problem *p, int32_t count) {
     m->begin(p);
     const double start = now();
-    for (int32_t k = 0; k < count; ++k) {
+    for (int32_t k = 0; k < count; k++) {
         m->decide(k);
     }
     return (now() - start) / count;
@@ -49,12 +49,12 @@ static double seconds_per_decision(const method *m, const problem *p, int32_t co
 static int32_t agreement(const method *m, const problem *p) {
     static int32_t expected[CHECKED];
     library_method.begin(p);
-    for (int32_t k = 0; k < CHECKED; ++k) {
+    for (int32_t k = 0; k < CHECKED; k++) {
         expected[k] = library_method.decide(k);
     }
     m->begin(p);
     int32_t same = 0;
-    for (int32_t k = 0; k < CHECKED; ++k) {
+    for (int32_t k = 0; k < CHECKED; k++) {
         same += m->decide(k) == expected[k];
     }
     return same;
@@ -81,13 +81,13 @@ int main(void) {
     };
     enum { RUNS = sizeof runs / sizeof *runs };
     static double seconds[RUNS][ROUNDS];
-    for (int round = -1; round < ROUNDS; ++round) { /* the first warms up */
-        for (int r = 0; r < RUNS; ++r) {
+    for (int round = -1; round < ROUNDS; round++) { /* the first warms up */
+        for (int r = 0; r < RUNS; r++) {
             const double measured = seconds_per_decision(runs[r].method, runs[r].problem, runs[r].count);
             seconds[r][round < 0 ? 0 : round] = measured;
         }
     }
-    for (int r = 0; r < RUNS; ++r) {
+    for (int r = 0; r < RUNS; r++) {
         qsort(seconds[r], ROUNDS, sizeof(double), ascending);
         printf("%s %.4g %.3f\n", runs[r].title, seconds[r][ROUNDS / 2],
                (double)agreement(runs[r].method, runs[r].problem) / CHECKED);

@@ -74,7 +74,7 @@ static int measure(const char *url) {
     }
     round_trip(lcm, 1, &answered); /* waits for the other process */
     static double seconds[ROUND_TRIPS];
-    for (int i = 0; i < ROUND_TRIPS; ++i) {
+    for (int i = 0; i < ROUND_TRIPS; i++) {
         seconds[i] = round_trip(lcm, 2 + i, &answered);
     }
     qsort(seconds, ROUND_TRIPS, sizeof *seconds, ascending);

@@ -23,15 +23,15 @@ void begin(const problem *p) {
     last_action = 0;
     const int32_t inputs = p->num_states + p->num_controlled;
     actions.resize(p->num_controlled, p->learner.num_actions);
-    for (int32_t a = 0; a < p->learner.num_actions; ++a) {
-        for (int32_t k = 0, rest = a; k < p->num_controlled; ++k, rest /= 3) {
+    for (int32_t a = 0; a < p->learner.num_actions; a++) {
+        for (int32_t k = 0, rest = a; k < p->num_controlled; k++, rest /= 3) {
             actions(k, a) = 0.5f * static_cast<float>(rest % 3);
         }
     }
     weight = Eigen::Map<const ArrayXf>(p->learner.network.weight, UNITS);
     width = Eigen::Map<const ArrayXf>(p->learner.network.width, UNITS);
     centre.resize(inputs, UNITS);
-    for (int32_t i = 0; i < inputs; ++i) {
+    for (int32_t i = 0; i < inputs; i++) {
         centre.row(i) = Eigen::Map<const Eigen::RowVectorXf>(p->learner.network.centre[i], UNITS);
     }
 }
@@ -59,7 +59,7 @@ int32_t choose(float q_max) {
     const float target = lh_random_uniform(&generator) * likelihood.sum();
     int32_t chosen = 0;
     for (float sum = likelihood[0]; sum <= target && chosen + 1 < likelihood.size(); sum += likelihood[chosen]) {
-        ++chosen;
+        chosen++;
     }
     return chosen;
 }

@@ -37,7 +37,7 @@ void suite_add_tcase(Suite *suite, TCase *tcase) {
 void check_add_test(TCase *tcase, const char *name, void (*test)(void)) {
     if (tcase->count == MAX_TESTS) {
         platform_say("no room for another test\n");
-        ++tcase->failed;
+        tcase->failed++;
         return;
     }
     tcase->tests[tcase->count].name = name;
@@ -56,7 +56,7 @@ void srunner_set_fork_status(SRunner *runner, int status) {
 void check_that(bool good, const char *claim, const char *file, const char *line) {
     if (!good) {
         const char *const texts[] = {file, ":", line, ": not so: ", claim, "\n"};
-        for (size_t i = 0; i < sizeof texts / sizeof *texts; ++i) {
+        for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
             platform_say(texts[i]);
         }
         longjmp(end_of_test, 1);
@@ -73,7 +73,7 @@ static bool passes(void (*test)(void)) {
 
 void srunner_run_all(SRunner *runner, int verbosity) {
     (void)verbosity;
-    for (int i = 0; i < runner->count; ++i) {
+    for (int i = 0; i < runner->count; i++) {
         const bool passed = passes(runner->tests[i].run);
         runner->failed += !passed;
         platform_say(passed ? "passed " : "FAILED ");

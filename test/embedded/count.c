@@ -57,7 +57,7 @@ enum { UNUSED = 0x5A };
 /* Fills what lies below the caller's stack frame. */
 static __attribute__((noinline)) void paint_stack(void) {
     char *end = (char *)__builtin_frame_address(0) - 64;
-    for (volatile char *byte = end - 4 * STACK_LIMIT; byte < end; ++byte) {
+    for (volatile char *byte = end - 4 * STACK_LIMIT; byte < end; byte++) {
         *byte = UNUSED;
     }
 }
@@ -66,7 +66,7 @@ static __attribute__((noinline)) void paint_stack(void) {
 static uint32_t used_stack(const char *frame) {
     const char *lowest = frame - 3 * STACK_LIMIT;
     while (*(const volatile char *)lowest == UNUSED) {
-        ++lowest;
+        lowest++;
     }
     return (uint32_t)(frame - lowest);
 }
@@ -85,7 +85,7 @@ static void count(tally *t, uint32_t instructions) {
 static bool count_decisions(tally *t) {
     static lh_controller controller;
     const int file = recording_open(&controller);
-    for (int i = 0; i < DECISIONS; ++i) {
+    for (int i = 0; i < DECISIONS; i++) {
         static lh_state state;
         static lh_decision decision;
         if (file < 0 || !recording_next(file, &state)) {

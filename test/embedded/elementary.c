@@ -51,7 +51,7 @@ static uint64_t checksum(float (*function)(float)) {
 
 int main(void) {
     uint64_t sums[FUNCTIONS];
-    for (int i = 0; i < FUNCTIONS; ++i) {
+    for (int i = 0; i < FUNCTIONS; i++) {
         sums[i] = checksum(functions[i]);
     }
     return platform_write(platform_open("elementary.bin", true), sums, sizeof sums) ? 0 : 1;

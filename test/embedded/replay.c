@@ -47,7 +47,7 @@ int main(void) {
         return 1;
     }
     const int decisions = platform_open("decisions.bin", true);
-    for (int i = 0; i < RECORDING_DECISIONS; ++i) {
+    for (int i = 0; i < RECORDING_DECISIONS; i++) {
         lh_state state;
         lh_decision decision;
         if (!recording_next(states, &state) || lh_controller_step(&controller, &state, &decision) != LH_OK) {

@@ -16,7 +16,7 @@ static lh_controller controller;
 /* FNV-1a. */
 static uint64_t hash(uint64_t so_far, const void *data, size_t size) {
     const unsigned char *bytes = data;
-    for (size_t i = 0; i < size; ++i) {
+    for (size_t i = 0; i < size; i++) {
         so_far = (so_far ^ bytes[i]) * 1099511628211u;
     }
     return so_far;
@@ -27,7 +27,7 @@ static uint64_t hash_network(uint64_t so_far, const lh_network *network) {
     const size_t size = (size_t)network->units * sizeof(float);
     so_far = hash(so_far, network->weight, size);
     so_far = hash(so_far, network->width, size);
-    for (int32_t i = 0; i < network->inputs; ++i) {
+    for (int32_t i = 0; i < network->inputs; i++) {
         so_far = hash(so_far, network->centre[i], size);
     }
     return so_far;
@@ -36,7 +36,7 @@ static uint64_t hash_network(uint64_t so_far, const lh_network *network) {
 /* Joints turn as told within their range; the robot drives ahead and veers to the failed crawler's side, less so the
  * more its arm bears on the ground. */
 static void move(lh_state *state, const lh_robot *robot, const lh_decision *decision, lh_random *random) {
-    for (int32_t k = 2; k < robot->num_actuators; ++k) {
+    for (int32_t k = 2; k < robot->num_actuators; k++) {
         const lh_actuator *joint = &robot->actuators[k];
         float angle = state->actuator_position[k] + PERIOD * decision->velocity[k];
         angle = angle < joint->low ? joint->low : angle;
@@ -66,7 +66,7 @@ int main(void) {
     lh_random_init(&random, 2);
     lh_state state = crawler_state(0.0f, 0.0f, 0.0f);
     uint64_t result = 14695981039346656037u;
-    for (int32_t k = 0; k < DECISIONS; ++k) {
+    for (int32_t k = 0; k < DECISIONS; k++) {
         lh_decision decision;
         if (lh_controller_step(&controller, &state, &decision) != LH_OK) {
             return 1;

@@ -80,7 +80,7 @@ static void toy_move(toy *p, const float *velocity) {
     p->torque = 1000.0f * velocity[1];
     const float low[] = {-2.6f, -0.6f, -2.4f};
     const float high[] = {2.6f, 1.2f, 0.0f};
-    for (int32_t k = 0; k < 3; ++k) {
+    for (int32_t k = 0; k < 3; k++) {
         p->joint[k] = fminf(fmaxf(p->joint[k] + 0.5f * velocity[2 + k], low[k]), high[k]);
     }
 }
@@ -151,7 +151,7 @@ START_TEST(controlled_actuators_must_ascend_within_the_robot) {
     };
     memset(&controller, 0x5a, sizeof controller);
     memset(&other, 0x5a, sizeof other);
-    for (int32_t k = 0; k < COUNT(bad); ++k) {
+    for (int32_t k = 0; k < COUNT(bad); k++) {
         ck_assert_int_eq(lh_controller_init(&controller, &config, &robot, &bad[k]), LH_ERROR_ACTUATORS);
     }
     const lh_controlled controlled = crawler_controlled();
@@ -177,7 +177,7 @@ START_TEST(first_decision) {
     ck_assert_float_eq(d.velocity[0], 0.0f);             /* the failed crawler */
     int8_t levels[4];
     lh_action_levels(d.choice.action, 4, levels);
-    for (int32_t k = 0; k < 4; ++k) {
+    for (int32_t k = 0; k < 4; k++) {
         ck_assert_float_eq(d.velocity[k + 1], lh_action_velocity(levels[k], 0.3f));
     }
 }
@@ -189,16 +189,16 @@ START_TEST(crawlers_and_joints_have_their_own_speed) {
     config.task.joint_speed = 0.25f;
     init(&controller, &config);
     bool seen[2][3] = {{false}};
-    for (int32_t i = 0; i < 200; ++i) {
+    for (int32_t i = 0; i < 200; i++) {
         const lh_decision d = step_at(&controller, 0.0f, 0.0f);
-        for (int32_t k = 1; k < 5; ++k) {
+        for (int32_t k = 1; k < 5; k++) {
             const float speed = k == 1 ? 0.5f : 0.25f;
             const int32_t level = (int32_t)(d.velocity[k] / speed) + 1;
             ck_assert_float_eq(d.velocity[k], (float)(level - 1) * speed);
             seen[k == 1][level] = true;
         }
     }
-    for (int32_t i = 0; i < 6; ++i) {
+    for (int32_t i = 0; i < 6; i++) {
         ck_assert(seen[i / 3][i % 3]);
     }
 }
@@ -294,7 +294,7 @@ START_TEST(tumble_is_punished_terminal_and_reset) {
     expect_near(d.choice.td_error, (double)lh_reward_total(&d.observed.reward) - q, 1e-5);
     ck_assert_int_eq(d.observed.episode, 1);
     ck_assert_int_eq(d.observed.num_inputs, 6);
-    for (int32_t k = 0; k < LH_MAX_ACTUATORS; ++k) {
+    for (int32_t k = 0; k < LH_MAX_ACTUATORS; k++) {
         ck_assert_float_eq(d.velocity[k], 0.0f);
     }
 
@@ -312,7 +312,7 @@ END_TEST
 START_TEST(tumbles_to_every_side) {
     const lh_config config = lh_config_default();
     const lh_vec3 axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
-    for (int32_t k = 0; k < COUNT(axes); ++k) {
+    for (int32_t k = 0; k < COUNT(axes); k++) {
         init(&controller, &config);
         step_at(&controller, 0.0f, 0.0f);
         const lh_state tumbled = tumbled_state(axes[k]);
@@ -349,7 +349,7 @@ START_TEST(reset_every_so_many_episodes) {
     config.task.episode.step_limit = 1;
     init(&controller, &config);
     step_at(&controller, 0.0f, 0.0f);
-    for (int32_t number = 1; number <= 9; ++number) {
+    for (int32_t number = 1; number <= 9; number++) {
         const lh_decision d = step_at(&controller, 0.0f, 0.0f);
         ck_assert(d.observed.outcome != LH_OUTCOME_NONE);
         ck_assert_int_eq(d.observed.summary.number, number);
@@ -383,14 +383,14 @@ START_TEST(invalid_state_changes_nothing) {
     step_at(&controller, 0.0f, 0.0f);
     other = controller;
     lh_state bad[4];
-    for (int32_t k = 0; k < COUNT(bad); ++k) {
+    for (int32_t k = 0; k < COUNT(bad); k++) {
         bad[k] = crawler_state(0.0f, 0.1f, facing_y);
     }
     bad[0].position[1] = NAN;
     bad[1].orientation.w = 9.0f;
     bad[2].num_actuators = 4;
     bad[3].actuator_position[3] = INFINITY;
-    for (int32_t k = 0; k < COUNT(bad); ++k) {
+    for (int32_t k = 0; k < COUNT(bad); k++) {
         lh_decision d;
         ck_assert_int_eq(lh_controller_step(&controller, &bad[k], &d), LH_ERROR_STATE);
         ck_assert_mem_eq(&controller, &other, sizeof controller);
@@ -406,7 +406,7 @@ START_TEST(without_learning_the_network_stays) {
     init(&controller, &config);
     const lh_network before = controller.learner.as.q_learning.network;
     toy plant = toy_start();
-    for (int32_t i = 0; i < 500; ++i) {
+    for (int32_t i = 0; i < 500; i++) {
         const lh_decision d = toy_turn(&controller, &plant);
         ck_assert(!d.choice.learned);
         ck_assert_float_eq(d.choice.td_error, 0.0f);
@@ -422,7 +422,7 @@ START_TEST(greedy_takes_a_best_action) {
     init(&controller, &config);
     const lh_random before = controller.learner.as.q_learning.random;
     toy plant = toy_start();
-    for (int32_t i = 0; i < 300; ++i) {
+    for (int32_t i = 0; i < 300; i++) {
         const lh_decision d = toy_turn(&controller, &plant);
         if (!d.observed.reset) {
             ck_assert_float_eq(d.choice.q, d.choice.q_max);
@@ -454,7 +454,7 @@ START_TEST(equal_runs_are_equal_bit_by_bit) {
     init(&other, &config);
     toy a = toy_start();
     toy b = toy_start();
-    for (int32_t i = 0; i < 2000; ++i) {
+    for (int32_t i = 0; i < 2000; i++) {
         const lh_decision da = toy_turn(&controller, &a);
         const lh_decision db = toy_turn(&other, &b);
         ck_assert_mem_eq(&da, &db, sizeof da);
@@ -475,7 +475,7 @@ START_TEST(restored_run_is_equal_bit_by_bit) {
     toy a = toy_start();
     lh_decision d = {.observed = {.reset = false}};
     int32_t resets = 0;
-    for (int32_t i = 0; resets < 3 && i < 10000; ++i) {
+    for (int32_t i = 0; resets < 3 && i < 10000; i++) {
         d = toy_turn(&controller, &a);
         resets += d.observed.reset && d.observed.summary.number % 4 == 0;
     }
@@ -486,7 +486,7 @@ START_TEST(restored_run_is_equal_bit_by_bit) {
     init(&other, &config);
     ck_assert_int_eq(lh_controller_restore(&other, &learned, d.observed.summary.number + 1), LH_OK);
     toy b = toy_start();
-    for (int32_t i = 0; i < 1000; ++i) {
+    for (int32_t i = 0; i < 1000; i++) {
         const lh_decision da = toy_turn(&controller, &a);
         const lh_decision db = toy_turn(&other, &b);
         ck_assert_mem_eq(&da, &db, sizeof da);
@@ -547,15 +547,15 @@ END_TEST
 START_TEST(works_at_full_capacity) {
     lh_robot robot = crawler_robot();
     robot.num_actuators = LH_MAX_ACTUATORS;
-    for (int32_t k = 5; k < LH_MAX_ACTUATORS; ++k) {
+    for (int32_t k = 5; k < LH_MAX_ACTUATORS; k++) {
         robot.actuators[k] = (lh_actuator){LH_JOINT, -1.0f, 1.0f, 100.0f};
         robot.links[robot.num_links] = robot.links[5];
         robot.links[robot.num_links].parent = robot.num_links - 1;
         robot.links[robot.num_links].actuator = k;
-        ++robot.num_links;
+        robot.num_links++;
     }
     lh_controlled controlled = {.count = LH_MAX_ACTUATORS};
-    for (int32_t k = 0; k < LH_MAX_ACTUATORS; ++k) {
+    for (int32_t k = 0; k < LH_MAX_ACTUATORS; k++) {
         controlled.index[k] = k;
     }
     lh_config config = lh_config_default();
@@ -563,7 +563,7 @@ START_TEST(works_at_full_capacity) {
     ck_assert_int_eq(lh_controller_init(&controller, &config, &robot, &controlled), LH_OK);
     lh_state state = crawler_state(0.0f, 0.0f, facing_y);
     state.num_actuators = LH_MAX_ACTUATORS;
-    for (int32_t i = 0; i < 20; ++i) {
+    for (int32_t i = 0; i < 20; i++) {
         const lh_decision d = step(&controller, &state);
         ck_assert_int_eq(d.observed.num_inputs, LH_MAX_STATE_INPUTS);
         ck_assert(d.choice.action >= 0 && d.choice.action < 6561);
@@ -577,11 +577,11 @@ START_TEST(limited_temperatures_and_margins_are_counted) {
     config.learner.q_learning.temperature_floor = 2.0f; /* (4) gives 10.5 in episode 1, and 1.35 in episode 2 */
     config.task.episode.step_limit = 3;
     init(&controller, &config);
-    for (int32_t i = 0; i < 3; ++i) {
+    for (int32_t i = 0; i < 3; i++) {
         ck_assert_float_gt(step_at(&controller, 0.0f, 0.0f).choice.temperature, 2.0f);
         ck_assert_uint_eq(controller.learner.as.q_learning.floored, 0);
     }
-    for (int32_t i = 0; i < 3; ++i) {
+    for (int32_t i = 0; i < 3; i++) {
         ck_assert_float_eq(step_at(&controller, 0.0f, 0.0f).choice.temperature, 2.0f);
         ck_assert_uint_eq(controller.learner.as.q_learning.floored, (uint64_t)i + 1);
     }
@@ -607,10 +607,10 @@ static lh_state extreme_state(lh_random *random) {
     static const float angle[] = {0.0f, -0.0f, 0.6f, -1.5f, 3.0f, -100.0f, 100.0f, 1e-40f, 99.0f, 101.0f, INFINITY};
     static const float effort[] = {0.0f, 1e3f, -1e3f, FLT_MAX, -FLT_MAX, FLT_MIN, 3e38f, 5e2f, 1e30f, -INFINITY};
     lh_state state = crawler_state(0.0f, 0.0f, 6.2f * lh_random_uniform(random));
-    for (int32_t i = 0; i < 3; ++i) {
+    for (int32_t i = 0; i < 3; i++) {
         state.position[i] = any_of(random, length, COUNT(length));
     }
-    for (int32_t k = 0; k < state.num_actuators; ++k) {
+    for (int32_t k = 0; k < state.num_actuators; k++) {
         state.actuator_position[k] = any_of(random, angle, COUNT(angle) - (k % 2));
         state.actuator_effort[k] = any_of(random, effort, COUNT(effort) - (k % 2));
     }
@@ -622,7 +622,7 @@ static lh_state extreme_state(lh_random *random) {
 
 static bool all_finite(const float *values, int32_t count) {
     bool finite = true;
-    for (int32_t i = 0; i < count; ++i) {
+    for (int32_t i = 0; i < count; i++) {
         finite = finite && isfinite(values[i]);
     }
     return finite;
@@ -663,7 +663,7 @@ START_TEST(extremes_leave_finite_numbers_within_their_limits) {
     int32_t decided = 0;
     int32_t faults = 0;
     int64_t held = 0;
-    for (int32_t offered = 0; decided < 100000; ++offered) {
+    for (int32_t offered = 0; decided < 100000; offered++) {
         if (decided % 100 == 0) { /* once all is at its limits, little is learned */
             config.learner.seed = (uint64_t)offered;
             init(&controller, &config);
@@ -671,7 +671,7 @@ START_TEST(extremes_leave_finite_numbers_within_their_limits) {
         const lh_state state = extreme_state(&random);
         lh_decision d;
         if (lh_controller_step(&controller, &state, &d) == LH_OK) {
-            ++decided;
+            decided++;
             held += d.choice.learned && controller.learner.as.q_learning.held.centres > 0;
             faults += !is_finite_decision(&d);
             faults +=
@@ -696,7 +696,7 @@ START_TEST(learns_to_drive_forward) {
     config.task.reward.tumble = -1.0f;
     init(&controller, &config);
     toy plant = toy_start();
-    for (int32_t i = 0; i < 6000; ++i) {
+    for (int32_t i = 0; i < 6000; i++) {
         toy_turn(&controller, &plant);
     }
     controller.learner.greedy = true;
@@ -704,7 +704,7 @@ START_TEST(learns_to_drive_forward) {
     lh_controller_begin(&controller);
     plant = toy_start();
     int32_t forward = 0;
-    for (int32_t i = 0; i < 100; ++i) {
+    for (int32_t i = 0; i < 100; i++) {
         forward += toy_turn(&controller, &plant).velocity[1] > 0.0f;
     }
     ck_assert_int_ge(forward, 90);

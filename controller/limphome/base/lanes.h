@@ -48,7 +48,7 @@ static inline float lh_dot(const float *a, const float *b, int32_t units) {
     float sum[LH_LANES] = {0.0f};
     int32_t end = lh_whole_lanes(units);
     for (int32_t j = 0; j < end; j += LH_LANES) {
-        for (int32_t lane = 0; lane < LH_LANES; ++lane) {
+        for (int32_t lane = 0; lane < LH_LANES; lane++) {
             sum[lane] += a[j + lane] * b[j + lane];
         }
     }

@@ -22,7 +22,7 @@ lh_error lh_random_restore(lh_random *random, const uint32_t s[4]) {
     if ((s[0] | s[1] | s[2] | s[3]) == 0) {
         return LH_ERROR_RANDOM_STATE;
     }
-    for (int32_t i = 0; i < 4; ++i) {
+    for (int32_t i = 0; i < 4; i++) {
         random->s[i] = s[i];
     }
     return LH_OK;

@@ -25,10 +25,10 @@ static frame child_frame(const frame *parent, const lh_link *link, const float *
 /* Supports within `tolerance` of the lowest. */
 static void find_carrying(const lh_robot *robot, float tolerance, lh_posture *posture) {
     float lowest = posture->supports[0].z;
-    for (int32_t i = 1; i < robot->num_supports; ++i) {
+    for (int32_t i = 1; i < robot->num_supports; i++) {
         lowest = posture->supports[i].z < lowest ? posture->supports[i].z : lowest;
     }
-    for (int32_t i = 0; i < robot->num_supports; ++i) {
+    for (int32_t i = 0; i < robot->num_supports; i++) {
         if (posture->supports[i].z - lowest <= tolerance) {
             posture->carrying[posture->num_carrying++] = i;
         }
@@ -41,7 +41,7 @@ void lh_kinematics_posture(const lh_robot *robot, lh_quat attitude, const float 
     frame frames[LH_MAX_LINKS] = {{.rotation = attitude}};
     float mass = 0.0f;
     lh_vec3 moment = {0.0f, 0.0f, 0.0f};
-    for (int32_t i = 0; i < robot->num_links; ++i) {
+    for (int32_t i = 0; i < robot->num_links; i++) {
         const lh_link *link = &robot->links[i];
         if (i > 0) {
             frames[i] = child_frame(&frames[link->parent], link, joint_angle);
@@ -51,7 +51,7 @@ void lh_kinematics_posture(const lh_robot *robot, lh_quat attitude, const float 
     }
     posture->centre_of_mass = lh_vec3_scale(moment, 1.0f / mass);
 
-    for (int32_t i = 0; i < robot->num_supports; ++i) {
+    for (int32_t i = 0; i < robot->num_supports; i++) {
         const lh_support *support = &robot->supports[i];
         posture->supports[i] = in_world(&frames[support->link], support->point);
         posture->supports[i].z -= support->radius;

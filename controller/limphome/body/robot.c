@@ -46,7 +46,7 @@ static lh_error validate_actuators(const lh_robot *robot) {
     if (robot->num_actuators < 1 || robot->num_actuators > LH_MAX_ACTUATORS) {
         return LH_ERROR_ACTUATORS;
     }
-    for (int32_t k = 0; k < robot->num_actuators; ++k) {
+    for (int32_t k = 0; k < robot->num_actuators; k++) {
         bool after_joint = k > 0 && robot->actuators[k - 1].kind == LH_JOINT;
         if (!is_good_actuator(&robot->actuators[k]) || (after_joint && robot->actuators[k].kind == LH_CRAWLER)) {
             return LH_ERROR_ACTUATORS;
@@ -65,14 +65,14 @@ lh_error lh_robot_validate(const lh_robot *robot) {
         return LH_ERROR_ROBOT;
     }
     float mass = 0.0f;
-    for (int32_t i = 0; i < robot->num_links; ++i) {
+    for (int32_t i = 0; i < robot->num_links; i++) {
         const lh_link *link = &robot->links[i];
         if (!is_good_joint(robot, i) || !lh_within(link->mass, 0.0f, LH_MASS_LIMIT) || !is_good_point(link->centre)) {
             return LH_ERROR_ROBOT;
         }
         mass += link->mass;
     }
-    for (int32_t i = 0; i < robot->num_supports; ++i) {
+    for (int32_t i = 0; i < robot->num_supports; i++) {
         if (!is_good_support(robot, &robot->supports[i])) {
             return LH_ERROR_ROBOT;
         }

@@ -26,7 +26,7 @@ static float area(lh_vec3 a, lh_vec3 b, lh_vec3 c) {
 
 /* Insertion sort by x, then y. */
 static void sort(lh_vec3 *points, int32_t count) {
-    for (int32_t i = 1; i < count; ++i) {
+    for (int32_t i = 1; i < count; i++) {
         lh_vec3 moving = points[i];
         int32_t place = i;
         while (place > 0 && (points[place - 1].x > moving.x ||
@@ -53,7 +53,7 @@ static int32_t push(lh_vec3 *hull, int32_t start, int32_t size, lh_vec3 point) {
 static int32_t convex_hull(lh_vec3 *points, int32_t count, lh_vec3 *hull) {
     sort(points, count);
     int32_t size = 0;
-    for (int32_t i = 0; i < count; ++i) {
+    for (int32_t i = 0; i < count; i++) {
         size = push(hull, 0, size, points[i]);
     }
     int32_t start = size - 1; /* the upper half begins at the last point of the lower */
@@ -66,7 +66,7 @@ static int32_t convex_hull(lh_vec3 *points, int32_t count, lh_vec3 *hull) {
 float lh_stability_margin(const lh_vec3 *points, int32_t count, lh_vec3 centre_of_mass) {
     lh_vec3 sorted[LH_MAX_SUPPORTS];
     lh_vec3 hull[2 * LH_MAX_SUPPORTS];
-    for (int32_t i = 0; i < count; ++i) {
+    for (int32_t i = 0; i < count; i++) {
         sorted[i] = points[i];
     }
     int32_t corners = convex_hull(sorted, count, hull);
@@ -76,7 +76,7 @@ float lh_stability_margin(const lh_vec3 *points, int32_t count, lh_vec3 centre_o
 
     float inside = FLT_MAX;
     float outside = FLT_MAX;
-    for (int32_t i = 0; i < corners; ++i) {
+    for (int32_t i = 0; i < corners; i++) {
         lh_vec3 a = hull[i];
         lh_vec3 b = hull[(i + 1) % corners];
         float rise = lh_stability_edge(a, b, centre_of_mass);

@@ -3,9 +3,9 @@
 #include <float.h>
 #include <string.h>
 
-#include "limphome/task/action.h"
 #include "limphome/base/exponential.h"
 #include "limphome/base/lanes.h"
+#include "limphome/task/action.h"
 
 /* Joint actions are computed in blocks of three rows, the levels of actuator 2, by nine columns, the levels of
  * actuators 0 and 1. */
@@ -18,14 +18,14 @@ _Static_assert(LH_ACTION_LEVELS == 3, "the inputs of the levels are 0, 1/2 and 1
 /* square[j] = ||s - mu_j||^2 over the state inputs; quarter[j] = e^(-1/4 sigma_j^2). */
 static void measure_states(const lh_network *network, const float *states, int32_t num_states, int32_t end,
                            const float *restrict precision, float *restrict square, float *restrict quarter) {
-    for (int32_t j = 0; j < end; ++j) {
+    for (int32_t j = 0; j < end; j++) {
         square[j] = 0.0f;
         quarter[j] = lh_decay(0.25f * precision[j]);
     }
-    for (int32_t i = 0; i < num_states; ++i) {
+    for (int32_t i = 0; i < num_states; i++) {
         const float *restrict centre = network->centre[i];
         float input = states[i];
-        for (int32_t j = 0; j < end; ++j) {
+        for (int32_t j = 0; j < end; j++) {
             float difference = input - centre[j];
             square[j] += difference * difference;
         }
@@ -42,7 +42,7 @@ static void measure_states(const lh_network *network, const float *states, int32
 static void relative_gaussians(const float *restrict centre, const float *restrict precision,
                                const float *restrict quarter, int32_t end, float *restrict square,
                                float *restrict reverse, float *restrict still, float *restrict forward) {
-    for (int32_t j = 0; j < end; ++j) {
+    for (int32_t j = 0; j < end; j++) {
         float beyond = centre[j] - 0.5f;
         float a = __builtin_fabsf(beyond);
         float gap = a - 0.25f;
@@ -67,14 +67,14 @@ static void relative_gaussians(const float *restrict centre, const float *restri
 }
 
 static void multiply(const float *restrict a, const float *restrict b, int32_t end, float *restrict product) {
-    for (int32_t j = 0; j < end; ++j) {
+    for (int32_t j = 0; j < end; j++) {
         product[j] = a[j] * b[j];
     }
 }
 
 /* row[r] = product times the factor of actuator 2 at level r */
 static void make_rows(const float *restrict product, lh_action_scratch *restrict scratch, int32_t end) {
-    for (int32_t j = 0; j < end; ++j) {
+    for (int32_t j = 0; j < end; j++) {
         scratch->row[0][j] = product[j] * scratch->factor[2][0][j];
         scratch->row[1][j] = product[j] * scratch->factor[2][1][j];
         scratch->row[2][j] = product[j] * scratch->factor[2][2][j];
@@ -83,12 +83,12 @@ static void make_rows(const float *restrict product, lh_action_scratch *restrict
 
 /* column[j][l0 + 3 l1] = factor of actuator 0 at level l0 times factor of actuator 1 at level l1. */
 static void make_columns(lh_action_scratch *scratch, int32_t units) {
-    for (int32_t j = 0; j < units; ++j) {
+    for (int32_t j = 0; j < units; j++) {
         float *restrict column = scratch->column[j];
         float reverse = scratch->factor[0][0][j];
         float still = scratch->factor[0][1][j];
         float forward = scratch->factor[0][2][j];
-        for (int32_t level = 0; level < LH_ACTION_LEVELS; ++level) {
+        for (int32_t level = 0; level < LH_ACTION_LEVELS; level++) {
             float second = scratch->factor[1][level][j];
             *column++ = reverse * second;
             *column++ = still * second;
@@ -108,17 +108,17 @@ static void contract(const lh_action_scratch *scratch, int32_t units, float (*bl
     for (int32_t first = 0; first < COLUMNS; first += SPAN * LH_VECTOR_WIDTH) {
         lh_vector sum[LH_ACTION_LEVELS][SPAN];
         memset(sum, 0, sizeof sum);
-        for (int32_t j = 0; j < units; ++j) {
+        for (int32_t j = 0; j < units; j++) {
             const lh_vector *part = (const lh_vector *)&scratch->column[j][first];
 #pragma GCC unroll 3
-            for (int32_t r = 0; r < LH_ACTION_LEVELS; ++r) {
+            for (int32_t r = 0; r < LH_ACTION_LEVELS; r++) {
 #pragma GCC unroll 3
-                for (int32_t v = 0; v < SPAN; ++v) {
+                for (int32_t v = 0; v < SPAN; v++) {
                     sum[r][v] += scratch->row[r][j] * part[v];
                 }
             }
         }
-        for (int32_t r = 0; r < LH_ACTION_LEVELS; ++r) {
+        for (int32_t r = 0; r < LH_ACTION_LEVELS; r++) {
             memcpy(&block[r][first], sum[r], sizeof sum[r]);
         }
     }
@@ -130,18 +130,18 @@ static void factorise(const lh_network *network, const float *states, int32_t nu
     int32_t n = network->inputs - num_states;
     lh_network_precisions(network, scratch->precision);
     measure_states(network, states, num_states, end, scratch->precision, scratch->square, scratch->quarter);
-    for (int32_t k = 0; k < n; ++k) {
+    for (int32_t k = 0; k < n; k++) {
         relative_gaussians(network->centre[num_states + k], scratch->precision, scratch->quarter, end, scratch->square,
                            scratch->factor[k][0], scratch->factor[k][1], scratch->factor[k][2]);
     }
     /* an actuator that is not there has one level */
-    for (int32_t k = n; k < BLOCK_ACTUATORS; ++k) {
+    for (int32_t k = n; k < BLOCK_ACTUATORS; k++) {
         memset(scratch->factor[k], 0, sizeof scratch->factor[k]);
-        for (int32_t j = 0; j < end; ++j) {
+        for (int32_t j = 0; j < end; j++) {
             scratch->factor[k][0][j] = 1.0f;
         }
     }
-    for (int32_t j = 0; j < end; ++j) {
+    for (int32_t j = 0; j < end; j++) {
         weighted[j] = network->weight[j] * lh_decay(scratch->square[j] * scratch->precision[j]);
     }
 }
@@ -150,7 +150,7 @@ static void factorise(const lh_network *network, const float *states, int32_t nu
 static float copy_block(float (*block)[LH_COLUMN_SLOTS], int32_t count, float *q, float largest) {
     for (int32_t first = 0; first < BLOCK && first < count; first += COLUMNS) {
         const float *row = block[first / COLUMNS];
-        for (int32_t c = 0; c < COLUMNS && first + c < count; ++c) {
+        for (int32_t c = 0; c < COLUMNS && first + c < count; c++) {
             largest = row[c] > largest ? row[c] : largest;
             q[first + c] = row[c];
         }

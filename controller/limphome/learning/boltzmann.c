@@ -21,20 +21,20 @@ lh_error lh_boltzmann_temperature(int32_t episode, float floor, float *temperatu
 /* The largest of q[count], found in LH_LANES strands. */
 static float largest(const float *q, int32_t count) {
     float strand[LH_LANES];
-    for (int32_t lane = 0; lane < LH_LANES; ++lane) {
+    for (int32_t lane = 0; lane < LH_LANES; lane++) {
         strand[lane] = q[0];
     }
     int32_t whole = count / LH_LANES * LH_LANES;
     for (int32_t i = 0; i < whole; i += LH_LANES) {
-        for (int32_t lane = 0; lane < LH_LANES; ++lane) {
+        for (int32_t lane = 0; lane < LH_LANES; lane++) {
             strand[lane] = q[i + lane] > strand[lane] ? q[i + lane] : strand[lane];
         }
     }
     float most = q[count - 1];
-    for (int32_t i = whole; i < count; ++i) {
+    for (int32_t i = whole; i < count; i++) {
         most = q[i] > most ? q[i] : most;
     }
-    for (int32_t lane = 0; lane < LH_LANES; ++lane) {
+    for (int32_t lane = 0; lane < LH_LANES; lane++) {
         most = strand[lane] > most ? strand[lane] : most;
     }
     return most;
@@ -44,7 +44,7 @@ int32_t lh_boltzmann_greedy(const float *q, int32_t count) {
     float most = largest(q, count);
     int32_t best = 0;
     while (best < count - 1 && q[best] < most) {
-        ++best;
+        best++;
     }
     return best;
 }
@@ -54,18 +54,18 @@ int32_t lh_boltzmann_greedy(const float *q, int32_t count) {
 static float likelihoods(const float *q, int32_t count, float temperature, float q_max, float *restrict likelihood) {
     float rest[CHUNK];
     if (count < CHUNK) {
-        for (int32_t i = 0; i < CHUNK; ++i) {
+        for (int32_t i = 0; i < CHUNK; i++) {
             rest[i] = i < count ? q[i] : -FLT_MAX;
         }
         q = rest;
     }
-    for (int32_t i = 0; i < CHUNK; ++i) {
+    for (int32_t i = 0; i < CHUNK; i++) {
         float exponent = (q_max - q[i]) / temperature;
         likelihood[i] = exponent > LH_DECAY_END ? 0.0f : lh_decay(exponent);
     }
     float sum[LH_LANES] = {0.0f};
     for (int32_t i = 0; i < CHUNK; i += LH_LANES) {
-        for (int32_t lane = 0; lane < LH_LANES; ++lane) {
+        for (int32_t lane = 0; lane < LH_LANES; lane++) {
             sum[lane] += likelihood[i + lane];
         }
     }
@@ -104,7 +104,7 @@ int32_t lh_boltzmann_select(const float *q, int32_t count, float temperature, lh
     if (count - first < CHUNK) {
         end = count - first;
     }
-    for (int32_t i = 0; i < end && below <= target; ++i) {
+    for (int32_t i = 0; i < end && below <= target; i++) {
         if (likelihood[i] > 0.0f) {
             place = i;
             below += likelihood[i];

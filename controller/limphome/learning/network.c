@@ -56,10 +56,10 @@ lh_error lh_network_init(lh_network *network, const lh_network_config *config, l
     memset(network, 0, sizeof *network); /* not by a literal, which would lie on the stack */
     network->units = config->units;
     network->inputs = config->inputs;
-    for (int32_t j = 0; j < config->units; ++j) {
+    for (int32_t j = 0; j < config->units; j++) {
         network->weight[j] = config->initial_weight;
         network->width[j] = config->initial_width;
-        for (int32_t i = 0; i < config->inputs; ++i) {
+        for (int32_t i = 0; i < config->inputs; i++) {
             network->centre[i][j] = lh_random_uniform(random);
         }
     }
@@ -68,10 +68,10 @@ lh_error lh_network_init(lh_network *network, const lh_network_config *config, l
 
 static bool rest_is_zero(const lh_network *network) {
     bool zero = true;
-    for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
+    for (int32_t j = 0; j < LH_UNIT_SLOTS; j++) {
         bool used = j < network->units;
         zero = zero && (used || (network->weight[j] == 0.0f && network->width[j] == 0.0f));
-        for (int32_t i = 0; i < LH_MAX_INPUTS; ++i) {
+        for (int32_t i = 0; i < LH_MAX_INPUTS; i++) {
             zero = zero && ((used && i < network->inputs) || network->centre[i][j] == 0.0f);
         }
     }
@@ -82,10 +82,10 @@ lh_error lh_network_validate(const lh_network *network, const lh_network_config 
     if (network->units != config->units || network->inputs != config->inputs) {
         return LH_ERROR_NETWORK;
     }
-    for (int32_t j = 0; j < network->units; ++j) {
+    for (int32_t j = 0; j < network->units; j++) {
         bool good = lh_within(network->weight[j], -config->weight_limit, config->weight_limit) &&
                     lh_within(network->width[j], config->width_floor, LH_WIDTH_LIMIT);
-        for (int32_t i = 0; i < network->inputs; ++i) {
+        for (int32_t i = 0; i < network->inputs; i++) {
             good = good && lh_within(network->centre[i][j], -LH_CENTRE_LIMIT, LH_CENTRE_LIMIT);
         }
         if (!good) {
@@ -98,7 +98,7 @@ lh_error lh_network_validate(const lh_network *network, const lh_network_config 
 void lh_network_precisions(const lh_network *network, float *precision) {
     const float *width = network->width;
     int32_t end = lh_end_of_units(network->units);
-    for (int32_t j = 0; j < end; ++j) {
+    for (int32_t j = 0; j < end; j++) {
         precision[j] = width[j] > 0.0f ? 1.0f / (width[j] * width[j]) : 0.0f;
     }
 }
@@ -106,13 +106,13 @@ void lh_network_precisions(const lh_network *network, float *precision) {
 /* distance[j] = ||x - mu_j||^2 */
 static void measure(const lh_network *restrict network, const float *restrict x, int32_t end,
                     float *restrict distance) {
-    for (int32_t j = 0; j < end; ++j) {
+    for (int32_t j = 0; j < end; j++) {
         distance[j] = 0.0f;
     }
-    for (int32_t i = 0; i < network->inputs; ++i) {
+    for (int32_t i = 0; i < network->inputs; i++) {
         const float *centre = network->centre[i];
         float input = x[i];
-        for (int32_t j = 0; j < end; ++j) {
+        for (int32_t j = 0; j < end; j++) {
             float difference = input - centre[j];
             distance[j] += difference * difference;
         }
@@ -123,10 +123,10 @@ float lh_network_value(const lh_network *network, const float *x, lh_activation 
     int32_t end = lh_end_of_units(network->units);
     lh_network_precisions(network, at->precision);
     measure(network, x, end, at->distance);
-    for (int32_t j = 0; j < end; ++j) {
+    for (int32_t j = 0; j < end; j++) {
         at->phi[j] = lh_decay(at->distance[j] * at->precision[j]);
     }
-    for (int32_t j = network->units; j < LH_UNIT_SLOTS; ++j) {
+    for (int32_t j = network->units; j < LH_UNIT_SLOTS; j++) {
         at->phi[j] = 0.0f;
     }
     return lh_dot(network->weight, at->phi, network->units);
@@ -138,7 +138,7 @@ static inline bool is_beyond(float x, float limit) {
 
 /* Brings values that are beyond -limit or limit back to it. Seldom needed, so not part of the loops that learn. */
 static void hold(float *values, int32_t end, float limit) {
-    for (int32_t j = 0; j < end; ++j) {
+    for (int32_t j = 0; j < end; j++) {
         if (is_beyond(values[j], limit)) {
             values[j] = values[j] < 0.0f ? -limit : limit;
         }
@@ -151,7 +151,7 @@ static uint32_t learn_weights(float *restrict weight, const lh_network_config *c
     uint32_t held = 0;
     float rate = config->rate_weight * step;
     float limit = config->weight_limit;
-    for (int32_t j = 0; j < end; ++j) {
+    for (int32_t j = 0; j < end; j++) {
         weight[j] += rate * phi[j];
         held += is_beyond(weight[j], limit);
     }
@@ -165,7 +165,7 @@ static uint32_t learn_weights(float *restrict weight, const lh_network_config *c
 static uint32_t learn_widths(float *restrict width, const lh_network_config *config, int32_t units,
                              const float *restrict pull, const float *restrict distance) {
     uint32_t held = 0;
-    for (int32_t j = 0; j < units; ++j) {
+    for (int32_t j = 0; j < units; j++) {
         float updated = width[j] + config->rate_width * pull[j] * distance[j] / width[j];
         float kept = updated < config->width_floor ? config->width_floor : updated;
         kept = kept > LH_WIDTH_LIMIT ? LH_WIDTH_LIMIT : kept;
@@ -178,7 +178,7 @@ static uint32_t learn_widths(float *restrict width, const lh_network_config *con
 /* (21) for one input */
 static uint32_t learn_centres(float *restrict centre, int32_t end, const float *restrict pull, float input) {
     uint32_t held = 0;
-    for (int32_t j = 0; j < end; ++j) {
+    for (int32_t j = 0; j < end; j++) {
         centre[j] += pull[j] * (input - centre[j]);
         held += is_beyond(centre[j], LH_CENTRE_LIMIT);
     }
@@ -200,17 +200,17 @@ lh_held lh_network_learn(lh_network *network, const lh_network_config *config, c
 
     float pull[LH_UNIT_SLOTS]; /* step w_j phi_j / sigma_j^2, what (20) and (21) share */
     int32_t end = lh_end_of_units(network->units);
-    for (int32_t j = 0; j < end; ++j) {
+    for (int32_t j = 0; j < end; j++) {
         pull[j] = factor * network->weight[j] * at->phi[j] * at->precision[j];
     }
     lh_held held = {
         .weights = learn_weights(network->weight, config, end, at->phi, step),
         .widths = learn_widths(network->width, config, network->units, pull, at->distance),
     };
-    for (int32_t j = 0; j < end; ++j) {
+    for (int32_t j = 0; j < end; j++) {
         pull[j] *= config->rate_centre;
     }
-    for (int32_t i = 0; i < network->inputs; ++i) {
+    for (int32_t i = 0; i < network->inputs; i++) {
         held.centres += learn_centres(network->centre[i], end, pull, x[i]);
     }
     return held;

@@ -73,7 +73,7 @@ void lh_q_learning_choose(lh_q_learning *learner, float temperature, bool greedy
 float lh_q_learning_learn(lh_q_learning *learner, const float *states, int32_t action, float reward, float next_q_max,
                           bool terminal) {
     float x[LH_MAX_INPUTS];
-    for (int32_t i = 0; i < learner->num_states; ++i) {
+    for (int32_t i = 0; i < learner->num_states; i++) {
         x[i] = states[i];
     }
     lh_action_inputs(action, learner->network.inputs - learner->num_states, x + learner->num_states);
@@ -109,7 +109,7 @@ static void choose_next(lh_q_learning *learner, const lh_observed *observed, boo
     learner->floored += temperature == learner->config.temperature_floor;
     lh_q_learning_evaluate(learner, observed->inputs);
     lh_q_learning_choose(learner, temperature, greedy, choice);
-    for (int32_t i = 0; i < learner->num_states; ++i) {
+    for (int32_t i = 0; i < learner->num_states; i++) {
         learner->states[i] = observed->inputs[i];
     }
     learner->action = choice->action;

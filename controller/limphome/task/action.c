@@ -2,14 +2,14 @@
 
 int32_t lh_action_count(int32_t n) {
     int32_t count = 1;
-    for (int32_t k = 0; k < n; ++k) {
+    for (int32_t k = 0; k < n; k++) {
         count *= LH_ACTION_LEVELS;
     }
     return count;
 }
 
 void lh_action_levels(int32_t index, int32_t n, int8_t *levels) {
-    for (int32_t k = 0; k < n; ++k) {
+    for (int32_t k = 0; k < n; k++) {
         levels[k] = (int8_t)(index % LH_ACTION_LEVELS);
         index /= LH_ACTION_LEVELS;
     }
@@ -30,7 +30,7 @@ float lh_action_input(int8_t level) {
 void lh_action_inputs(int32_t index, int32_t n, float *inputs) {
     int8_t levels[LH_MAX_ACTUATORS];
     lh_action_levels(index, n, levels);
-    for (int32_t k = 0; k < n; ++k) {
+    for (int32_t k = 0; k < n; k++) {
         inputs[k] = lh_action_input(levels[k]);
     }
 }

@@ -4,11 +4,11 @@
 
 float lh_observation_scale(float value, float low, float high, int32_t *clamped) {
     if (value < low) {
-        ++*clamped;
+        (*clamped)++;
         return 0.0f;
     }
     if (value > high) {
-        ++*clamped;
+        (*clamped)++;
         return 1.0f;
     }
     return (value - low) / (high - low);
@@ -23,7 +23,7 @@ void lh_observation_range(const lh_actuator *actuator, float *low, float *high) 
 int32_t lh_observation(const lh_robot *robot, const lh_controlled *controlled, const lh_state *state, lh_quat attitude,
                        float *inputs) {
     int32_t clamped = 0;
-    for (int32_t k = 0; k < controlled->count; ++k) {
+    for (int32_t k = 0; k < controlled->count; k++) {
         int32_t index = controlled->index[k];
         const lh_actuator *actuator = &robot->actuators[index];
         float value = actuator->kind == LH_JOINT ? state->actuator_position[index] : state->actuator_effort[index];
@@ -40,13 +40,13 @@ int32_t lh_observation(const lh_robot *robot, const lh_controlled *controlled, c
 
 lh_error lh_state_validate(const lh_state *state, const lh_robot *robot) {
     bool good = state->num_actuators == robot->num_actuators;
-    for (int32_t i = 0; i < 3; ++i) {
+    for (int32_t i = 0; i < 3; i++) {
         good = good && lh_within(state->position[i], -1e6f, 1e6f);
     }
     const lh_quat *q = &state->orientation;
     float length = lh_sqrt(q->w * q->w + q->x * q->x + q->y * q->y + q->z * q->z);
     good = good && lh_within(length, 0.9f, 1.1f);
-    for (int32_t k = 0; good && k < robot->num_actuators; ++k) {
+    for (int32_t k = 0; good && k < robot->num_actuators; k++) {
         float largest = robot->actuators[k].kind == LH_JOINT ? LH_ANGLE_LIMIT : FLT_MAX;
         good = lh_within(state->actuator_position[k], -largest, largest) && lh_finite(state->actuator_effort[k]);
     }

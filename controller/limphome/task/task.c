@@ -42,7 +42,7 @@ static lh_error validate_controlled(const lh_controlled *controlled, const lh_ro
         return LH_ERROR_ACTUATORS;
     }
     int32_t previous = -1;
-    for (int32_t k = 0; k < controlled->count; ++k) {
+    for (int32_t k = 0; k < controlled->count; k++) {
         if (controlled->index[k] <= previous || controlled->index[k] >= robot->num_actuators) {
             return LH_ERROR_ACTUATORS;
         }
@@ -81,7 +81,7 @@ static situation assess(const lh_task *task, const lh_state *state, lh_quat atti
     lh_kinematics_posture(&task->robot, attitude, state->actuator_position, task->config.support_tolerance, &posture);
     //@ split posture.num_carrying; // for Frama-C: so many are set
     lh_vec3 carrying[LH_MAX_SUPPORTS];
-    for (int32_t i = 0; i < posture.num_carrying; ++i) {
+    for (int32_t i = 0; i < posture.num_carrying; i++) {
         carrying[i] = posture.supports[posture.carrying[i]];
     }
     return (situation){
@@ -132,7 +132,7 @@ static lh_summary summarise(const lh_task *task, const lh_pose2 *end, lh_outcome
 /* The action under way has led to `now`: its reward, and how it ends the episode, if it does. */
 static lh_outcome finish_step(lh_task *task, const situation *now, lh_observed *observed) {
     lh_episode *episode = &task->episode;
-    ++episode->steps;
+    episode->steps++;
     lh_outcome outcome = lh_episode_outcome(episode, &task->config.episode, &now->pose, now->tilt);
     observed->stepped = true;
     observed->reward = rewards_of_step(task, now, outcome);
@@ -199,7 +199,7 @@ lh_error lh_task_observe(lh_task *task, const lh_state *state, lh_observed *obse
 void lh_task_velocities(const lh_task *task, int32_t action, float *velocity) {
     int8_t levels[LH_MAX_ACTUATORS];
     lh_action_levels(action, task->controlled.count, levels);
-    for (int32_t k = 0; k < task->controlled.count; ++k) {
+    for (int32_t k = 0; k < task->controlled.count; k++) {
         int32_t index = task->controlled.index[k];
         bool is_joint = task->robot.actuators[index].kind == LH_JOINT;
         float speed = is_joint ? task->config.joint_speed : task->config.crawler_speed;

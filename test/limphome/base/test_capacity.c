@@ -45,15 +45,15 @@ START_TEST(chooses_among_all_actions) {
     ck_assert_int_eq(lh_controller_init(&controller, &config, &robot, &controlled), LH_OK);
     const lh_state state = crawler_state(0.0f, 0.0f, 0.0f);
     int32_t chosen[LH_MAX_ACTIONS] = {0};
-    for (int32_t i = 0; i < 2000; ++i) {
+    for (int32_t i = 0; i < 2000; i++) {
         lh_decision decision;
         ck_assert_int_eq(lh_controller_step(&controller, &state, &decision), LH_OK);
         if (!decision.observed.reset) {
             ck_assert(decision.choice.action >= 0 && decision.choice.action < LH_MAX_ACTIONS);
-            ++chosen[decision.choice.action];
+            chosen[decision.choice.action]++;
         }
     }
-    for (int32_t a = 0; a < LH_MAX_ACTIONS; ++a) {
+    for (int32_t a = 0; a < LH_MAX_ACTIONS; a++) {
         ck_assert_int_gt(chosen[a], 0);
     }
 }

@@ -151,7 +151,7 @@ START_TEST(atan2_over_pairs_of_floats) {
     double worst = 0.0;
     int64_t wrong = 0;
     uint32_t bits = 1;
-    for (int32_t i = 0; i < 8000000; ++i) {
+    for (int32_t i = 0; i < 8000000; i++) {
         const float y = float_of(bits = bits * 1664525u + 1013904223u);
         const float x = float_of(bits = bits * 1664525u + 1013904223u);
         if (isnan(x) || isnan(y)) {
@@ -205,7 +205,7 @@ START_TEST(wrapped_angles) {
     }
     ck_assert_double_lt(worst, 2e-7);
     ck_assert_int_eq(wrong, 0);
-    for (int32_t turn = -15; turn <= 15; ++turn) { /* odd multiples of pi fall on either side */
+    for (int32_t turn = -15; turn <= 15; turn++) { /* odd multiples of pi fall on either side */
         const float wrapped = lh_wrap_angle((float)((2 * turn + 1) * M_PI));
         ck_assert(wrapped > -LH_PI && wrapped <= LH_PI);
     }

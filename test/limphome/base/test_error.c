@@ -3,13 +3,13 @@
 #include "test.h"
 
 START_TEST(every_error_has_a_text_of_its_own) {
-    for (int a = LH_OK; a < LH_ERROR_COUNT; ++a) {
+    for (int a = LH_OK; a < LH_ERROR_COUNT; a++) {
         const char *text = lh_error_text((lh_error)a);
         ck_assert_ptr_nonnull(text);
         ck_assert_uint_gt(strlen(text), 5);
         ck_assert_int_ne(text[strlen(text) - 1], '.');
         ck_assert_str_ne(text, "Unknown error");
-        for (int b = LH_OK; b < a; ++b) {
+        for (int b = LH_OK; b < a; b++) {
             ck_assert_str_ne(text, lh_error_text((lh_error)b));
         }
     }

@@ -4,10 +4,10 @@
 #include "test.h"
 
 START_TEST(known_answers) {
-    for (int32_t k = 0; k < COUNT(random_seed); ++k) {
+    for (int32_t k = 0; k < COUNT(random_seed); k++) {
         lh_random random;
         lh_random_init(&random, random_seed[k]);
-        for (int32_t i = 0; i < COUNT(random_output[k]); ++i) {
+        for (int32_t i = 0; i < COUNT(random_output[k]); i++) {
             ck_assert_uint_eq(lh_random_next(&random), random_output[k][i]);
         }
     }
@@ -20,7 +20,7 @@ START_TEST(restored_state_goes_on) {
     lh_random_init(&a, 42);
     lh_random_next(&a);
     ck_assert_int_eq(lh_random_restore(&b, a.s), LH_OK);
-    for (int32_t i = 0; i < 100; ++i) {
+    for (int32_t i = 0; i < 100; i++) {
         ck_assert_uint_eq(lh_random_next(&a), lh_random_next(&b));
     }
 }
@@ -43,17 +43,17 @@ START_TEST(uniform_is_even_over_its_range) {
     int32_t bins[BINS] = {0};
     double sum = 0.0;
     int32_t wrong = 0;
-    for (int32_t i = 0; i < DRAWS; ++i) {
+    for (int32_t i = 0; i < DRAWS; i++) {
         const float u = lh_random_uniform(&random);
         wrong += !(u >= 0.0f && u < 1.0f) || floor(u * 0x1p24) != u * 0x1p24;
         sum += u;
-        ++bins[(int32_t)(u * (float)BINS) & (BINS - 1)];
+        bins[(int32_t)(u * (float)BINS) & (BINS - 1)]++;
     }
     ck_assert_int_eq(wrong, 0);
     /* five standard deviations of the mean, 1 / sqrt(12 n) */
     expect_near(sum / (double)DRAWS, 0.5, 5.0 / sqrt(12.0 * (double)DRAWS));
     double chi_square = 0.0;
-    for (int32_t i = 0; i < BINS; ++i) {
+    for (int32_t i = 0; i < BINS; i++) {
         const double expected = (double)DRAWS / (double)BINS;
         chi_square += (bins[i] - expected) * (bins[i] - expected) / expected;
     }

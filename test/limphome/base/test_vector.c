@@ -29,7 +29,7 @@ END_TEST
 
 START_TEST(rotation_against_matrices) {
     const lh_vec3 v = {rotation_vector[0], rotation_vector[1], rotation_vector[2]};
-    for (int32_t k = 0; k < COUNT(rotation_quaternion); ++k) {
+    for (int32_t k = 0; k < COUNT(rotation_quaternion); k++) {
         expect_vector(lh_quat_rotate(reference_quaternion(k), v), rotation_turned[k], 1e-6);
     }
 }
@@ -37,7 +37,7 @@ END_TEST
 
 START_TEST(product_applies_the_right_one_first) {
     const lh_vec3 v = {rotation_vector[0], rotation_vector[1], rotation_vector[2]};
-    for (int32_t k = 0; k < COUNT(rotation_angles); ++k) {
+    for (int32_t k = 0; k < COUNT(rotation_angles); k++) {
         const double *angles = rotation_angles[k];
         const lh_quat yaw = lh_quat_about((lh_vec3){0, 0, 1}, (float)angles[0]);
         const lh_quat pitch = lh_quat_about((lh_vec3){0, 1, 0}, (float)angles[1]);
@@ -49,7 +49,7 @@ START_TEST(product_applies_the_right_one_first) {
 END_TEST
 
 START_TEST(angles_against_matrices) {
-    for (int32_t k = 0; k < COUNT(rotation_angles); ++k) {
+    for (int32_t k = 0; k < COUNT(rotation_angles); k++) {
         const lh_quat q = reference_quaternion(k);
         /* the angles are ill-conditioned where the nose points straight up or down */
         const double tolerance = 2e-6 / cos(rotation_angles[k][1]);
@@ -62,7 +62,7 @@ START_TEST(angles_against_matrices) {
 END_TEST
 
 START_TEST(sign_of_a_quaternion_does_not_matter) {
-    for (int32_t k = 0; k < COUNT(rotation_angles); ++k) {
+    for (int32_t k = 0; k < COUNT(rotation_angles); k++) {
         const lh_quat q = reference_quaternion(k);
         const lh_quat negative = {-q.w, -q.x, -q.y, -q.z};
         ck_assert_float_eq(lh_quat_heading(q), lh_quat_heading(negative));
@@ -76,7 +76,7 @@ END_TEST
 /* i i = j j = k k = -1, i j = k, j k = i, k i = j; the other way round the signs turn. */
 START_TEST(product_by_its_rules) {
     const lh_quat unit[] = {{0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
-    for (int32_t a = 0; a < 3; ++a) {
+    for (int32_t a = 0; a < 3; a++) {
         const lh_quat square = lh_quat_multiply(unit[a], unit[a]);
         ck_assert(square.w == -1.0f && square.x == 0.0f && square.y == 0.0f && square.z == 0.0f);
         const lh_quat third = unit[(a + 2) % 3];
@@ -106,7 +106,7 @@ START_TEST(angles_at_their_ends) {
     expect_near(lh_quat_pitch(lh_quat_about((lh_vec3){0, 1, 0}, 0.5f * LH_PI)), M_PI_2, 1e-6);
     expect_near(lh_quat_pitch(lh_quat_about((lh_vec3){0, 1, 0}, -0.5f * LH_PI)), -M_PI_2, 1e-6);
     /* facing backwards is pi, whichever side rounding falls on */
-    for (int32_t k = -20; k <= 20; ++k) {
+    for (int32_t k = -20; k <= 20; k++) {
         const lh_quat q = {(float)k * 1e-8f, 0, 0, 1};
         ck_assert(lh_quat_heading(q) > -LH_PI && lh_quat_heading(q) <= LH_PI);
     }

@@ -14,14 +14,14 @@ static void expect_vector(lh_vec3 actual, const double *expected) {
 
 START_TEST(postures_against_reference) {
     const lh_robot robot = crawler_robot();
-    for (int32_t k = 0; k < COUNT(posture_angles); ++k) {
+    for (int32_t k = 0; k < COUNT(posture_angles); k++) {
         const float *q = posture_attitude[k];
         float angles[LH_MAX_ACTUATORS] = {NAN, NAN}; /* crawlers are not read */
         memcpy(&angles[2], posture_angles[k], sizeof posture_angles[k]);
         lh_posture posture;
         lh_kinematics_posture(&robot, (lh_quat){q[0], q[1], q[2], q[3]}, angles, 0.03f, &posture);
         expect_vector(posture.centre_of_mass, posture_mass[k]);
-        for (int32_t i = 0; i < robot.num_supports; ++i) {
+        for (int32_t i = 0; i < robot.num_supports; i++) {
             expect_vector(posture.supports[i], posture_supports[k][i]);
         }
     }
@@ -34,7 +34,7 @@ START_TEST(level_robot_stands_on_its_crawlers) {
     lh_posture posture;
     lh_kinematics_posture(&robot, level, angles, 0.03f, &posture);
     ck_assert_int_eq(posture.num_carrying, 4);
-    for (int32_t i = 0; i < 4; ++i) {
+    for (int32_t i = 0; i < 4; i++) {
         ck_assert_int_eq(posture.carrying[i], i);
     }
     /* with a large tolerance the tip, which hangs at some height, carries too */

@@ -64,7 +64,7 @@ END_TEST
 
 START_TEST(total_mass_must_have_a_finite_reciprocal) {
     lh_robot robot = crawler_robot();
-    for (int32_t i = 0; i < robot.num_links; ++i) {
+    for (int32_t i = 0; i < robot.num_links; i++) {
         robot.links[i].mass = 0.0f;
     }
     ck_assert_int_eq(lh_robot_validate(&robot), LH_ERROR_ROBOT);

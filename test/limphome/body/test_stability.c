@@ -14,14 +14,14 @@ static const lh_vec3 rectangle[4] = {{1, 0.5f, 0}, {-1, 0.5f, 0}, {-1, -0.5f, 0}
 /* All points turned about the origin. */
 static float margin_turned(lh_quat q, lh_vec3 shift, const lh_vec3 *points, int32_t count, lh_vec3 mass) {
     lh_vec3 turned[LH_MAX_SUPPORTS];
-    for (int32_t i = 0; i < count; ++i) {
+    for (int32_t i = 0; i < count; i++) {
         turned[i] = lh_vec3_add(lh_quat_rotate(q, points[i]), shift);
     }
     return lh_stability_margin(turned, count, lh_vec3_add(lh_quat_rotate(q, mass), shift));
 }
 
 START_TEST(edge_against_brute_force_rotation) {
-    for (int32_t k = 0; k < COUNT(edge); ++k) {
+    for (int32_t k = 0; k < COUNT(edge); k++) {
         const lh_vec3 a = vector(edge[k][0]);
         const lh_vec3 b = vector(edge[k][1]);
         const lh_vec3 g = vector(edge[k][2]);
@@ -72,9 +72,9 @@ START_TEST(balanced_over_an_edge_is_not_below_zero) {
 END_TEST
 
 START_TEST(margin_against_reference) {
-    for (int32_t k = 0; k < COUNT(hull_points); ++k) {
+    for (int32_t k = 0; k < COUNT(hull_points); k++) {
         lh_vec3 points[6];
-        for (int32_t i = 0; i < 6; ++i) {
+        for (int32_t i = 0; i < 6; i++) {
             points[i] = vector(hull_points[k][i]);
         }
         expect_near(lh_stability_margin(points, 6, vector(hull_mass[k])), hull_margin[k], 3e-6);
@@ -107,10 +107,10 @@ START_TEST(order_duplicates_and_inner_points_do_not_matter) {
     ck_assert_float_eq(lh_stability_margin(more, COUNT(more), mass), expected);
     /* every order of the corners and a point on a side between two of them */
     const lh_vec3 corners[] = {rectangle[0], rectangle[1], rectangle[2], rectangle[3], {-1, 0.25f, 0}};
-    for (int32_t order = 0; order < 5 * 5 * 5 * 5 * 5; ++order) {
+    for (int32_t order = 0; order < 5 * 5 * 5 * 5 * 5; order++) {
         lh_vec3 points[5];
         uint32_t used = 0;
-        for (int32_t i = 0, digits = order; i < 5; ++i, digits /= 5) {
+        for (int32_t i = 0, digits = order; i < 5; i++, digits /= 5) {
             points[i] = corners[digits % 5];
             used |= 1u << (digits % 5);
         }

@@ -7,7 +7,7 @@
 #include "test.h"
 
 START_TEST(temperature_of_the_episode) {
-    for (int32_t k = 0; k < COUNT(temperature_episode); ++k) {
+    for (int32_t k = 0; k < COUNT(temperature_episode); k++) {
         float t = 0.0f;
         ck_assert_int_eq(lh_boltzmann_temperature(temperature_episode[k], 1e-4f, &t), LH_OK);
         expect_near(t, temperature[k], 4e-7 * temperature[k] + 1e-8);
@@ -26,7 +26,7 @@ END_TEST
 
 START_TEST(temperature_before_the_first_episode_is_refused) {
     const int32_t refused[] = {0, -1, -2500, INT32_MIN};
-    for (int32_t k = 0; k < COUNT(refused); ++k) {
+    for (int32_t k = 0; k < COUNT(refused); k++) {
         float t = 7.0f;
         ck_assert_int_eq(lh_boltzmann_temperature(refused[k], 0.01f, &t), LH_ERROR_EPISODE);
         ck_assert_float_eq(t, 7.0f);
@@ -42,9 +42,9 @@ START_TEST(greedy_takes_the_first_of_equals) {
 END_TEST
 
 START_TEST(probabilities_against_reference) {
-    for (int32_t k = 0; k < COUNT(selection_q); ++k) {
+    for (int32_t k = 0; k < COUNT(selection_q); k++) {
         const int32_t count = COUNT(selection_q[k]);
-        for (int32_t i = 0; i < count; ++i) {
+        for (int32_t i = 0; i < count; i++) {
             const double expected = selection_probability[k][i];
             const float actual = lh_boltzmann_probability(selection_q[k], count, selection_temperature[k], i);
             /* a rounding of q / T is multiplied by its magnitude */
@@ -56,7 +56,7 @@ END_TEST
 
 START_TEST(equal_values_give_equal_probabilities) {
     const float q[81] = {0};
-    for (int32_t i = 0; i < 81; ++i) {
+    for (int32_t i = 0; i < 81; i++) {
         expect_near(lh_boltzmann_probability(q, 81, 0.128f, i), 1.0 / 81.0, 1e-8);
     }
 }
@@ -65,15 +65,15 @@ END_TEST
 START_TEST(probabilities_sum_to_one) {
     static const float scales[] = {0.0f, 1.0f, 100.0f, 1e30f, FLT_MAX};
     float q[729];
-    for (int32_t k = 0; k < COUNT(scales); ++k) {
+    for (int32_t k = 0; k < COUNT(scales); k++) {
         lh_random random;
         lh_random_init(&random, 5);
         const int32_t count = COUNT(q);
-        for (int32_t i = 0; i < count; ++i) {
+        for (int32_t i = 0; i < count; i++) {
             q[i] = scales[k] * (2.0f * lh_random_uniform(&random) - 1.0f);
         }
         double sum = 0.0;
-        for (int32_t i = 0; i < count; ++i) {
+        for (int32_t i = 0; i < count; i++) {
             const float p = lh_boltzmann_probability(q, count, 0.5f, i);
             ck_assert(p >= 0.0f && p <= 1.0f);
             sum += p;
@@ -87,7 +87,7 @@ START_TEST(huge_values_do_not_overflow) {
     const float q[] = {-1e30f, 1e30f, -FLT_MAX, 0.0f};
     lh_random random;
     lh_random_init(&random, 1);
-    for (int32_t i = 0; i < 1000; ++i) {
+    for (int32_t i = 0; i < 1000; i++) {
         float p = 0.0f;
         ck_assert_int_eq(lh_boltzmann_select(q, 4, 1e-4f, &random, &p), 1);
         ck_assert_float_eq(p, 1.0f);
@@ -99,10 +99,10 @@ START_TEST(huge_values_do_not_overflow) {
 END_TEST
 
 START_TEST(selection_agrees_with_probability) {
-    for (int32_t k = 0; k < COUNT(selection_q); ++k) {
+    for (int32_t k = 0; k < COUNT(selection_q); k++) {
         lh_random random;
         lh_random_init(&random, (uint64_t)k);
-        for (int32_t i = 0; i < 200; ++i) {
+        for (int32_t i = 0; i < 200; i++) {
             float p = 0.0f;
             const int32_t a = lh_boltzmann_select(selection_q[k], 9, selection_temperature[k], &random, &p);
             ck_assert(a >= 0 && a < 9);
@@ -137,25 +137,25 @@ END_TEST
 /* Pearson's test of one row of the table. */
 START_TEST(frequencies_agree_with_probability) {
     enum { DRAWS = 200000, ACTIONS = 9 };
-    for (int32_t k = 0; k < 2; ++k) {
+    for (int32_t k = 0; k < 2; k++) {
         lh_random random;
         lh_random_init(&random, 77);
         int32_t drawn[ACTIONS] = {0};
-        for (int32_t i = 0; i < DRAWS; ++i) {
-            ++drawn[lh_boltzmann_select(selection_q[k], ACTIONS, selection_temperature[k], &random, NULL)];
+        for (int32_t i = 0; i < DRAWS; i++) {
+            drawn[lh_boltzmann_select(selection_q[k], ACTIONS, selection_temperature[k], &random, NULL)]++;
         }
         double chi_square = 0.0;
         int32_t freedom = -1;
         int32_t rare = 0;
         double rare_expected = 0.0;
-        for (int32_t i = 0; i < ACTIONS; ++i) {
+        for (int32_t i = 0; i < ACTIONS; i++) {
             const double expected = (double)DRAWS * selection_probability[k][i];
             if (expected < 10.0) { /* too rare for the chi-square distribution; taken together below */
                 rare += drawn[i];
                 rare_expected += expected;
             } else {
                 chi_square += (drawn[i] - expected) * (drawn[i] - expected) / expected;
-                ++freedom;
+                freedom++;
             }
         }
         ck_assert_int_ge(freedom, 4);
@@ -171,7 +171,7 @@ START_TEST(draws_at_the_edges_of_the_interval) {
     const float q[] = {0.0f, -1.0986123f};
     lh_random random;
     lh_random_init(&random, 11);
-    for (int32_t i = 0; i < 10000; ++i) {
+    for (int32_t i = 0; i < 10000; i++) {
         lh_random same = random;
         const float u = lh_random_uniform(&same);
         const int32_t a = lh_boltzmann_select(q, 2, 1.0f, &random, NULL);
@@ -185,26 +185,26 @@ END_TEST
 /* The library computes several values at a time; here the cumulative distribution is summed up one by one. */
 START_TEST(draws_agree_with_the_cumulative_distribution) {
     static const int32_t counts[] = {1, 2, 8, 31, 32, 33, 63, 64, 65, 81, 243};
-    for (int32_t k = 0; k < COUNT(counts); ++k) {
+    for (int32_t k = 0; k < COUNT(counts); k++) {
         const int32_t count = counts[k];
         float q[243];
         double likelihood[243];
         double total = 0.0;
         lh_random random;
         lh_random_init(&random, (uint64_t)count);
-        for (int32_t i = 0; i < count; ++i) {
+        for (int32_t i = 0; i < count; i++) {
             q[i] = lh_random_uniform(&random);
             likelihood[i] = exp(q[i] / 0.5);
             total += likelihood[i];
         }
         int32_t last = 0; /* how often the last was drawn */
-        for (int32_t draw = 0; draw < 2000; ++draw) {
+        for (int32_t draw = 0; draw < 2000; draw++) {
             lh_random same = random;
             const double target = lh_random_uniform(&same) * total;
             const int32_t a = lh_boltzmann_select(q, count, 0.5f, &random, NULL);
             ck_assert(a >= 0 && a < count);
             double below = 0.0;
-            for (int32_t i = 0; i < a; ++i) {
+            for (int32_t i = 0; i < a; i++) {
                 below += likelihood[i];
             }
             ck_assert_double_le(below - 1e-5 * total, target);

@@ -130,7 +130,7 @@ END_TEST
 START_TEST(what_was_saved_goes_on_bit_by_bit) {
     init(&learner);
     learner.as.q_learning.config.temperature_floor = 2.0f; /* acts from episode 2 on */
-    for (int32_t i = 0; i < 20; ++i) {
+    for (int32_t i = 0; i < 20; i++) {
         step(&learner, i > 0, 0.1f * (float)i);
     }
     lh_learned learned;
@@ -141,7 +141,7 @@ START_TEST(what_was_saved_goes_on_bit_by_bit) {
     step(&other, false, 0.0f); /* forgotten by restoring */
     ck_assert_int_eq(lh_learner_restore(&other, &learned), LH_OK);
     ck_assert_uint_eq(other.as.q_learning.floored, 20);
-    for (int32_t i = 0; i < 20; ++i) {
+    for (int32_t i = 0; i < 20; i++) {
         const lh_choice a = step(&learner, i > 0, 1.0f);
         const lh_choice b = step(&other, i > 0, 1.0f);
         ck_assert_int_eq(a.action, b.action);

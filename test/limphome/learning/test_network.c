@@ -17,8 +17,8 @@ static lh_network reference_network(void) {
     lh_network network = {.units = NETWORK_UNITS, .inputs = NETWORK_INPUTS};
     memcpy(network.weight, network_weight, sizeof network_weight);
     memcpy(network.width, network_width, sizeof network_width);
-    for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
-        for (int32_t i = 0; i < NETWORK_INPUTS; ++i) {
+    for (int32_t j = 0; j < NETWORK_UNITS; j++) {
+        for (int32_t i = 0; i < NETWORK_INPUTS; i++) {
             network.centre[i][j] = network_centre[j][i];
         }
     }
@@ -101,10 +101,10 @@ START_TEST(initial_values) {
     lh_network network;
     ck_assert_int_eq(lh_network_init(&network, &config, &random), LH_OK);
     ck_assert_int_eq(lh_network_validate(&network, &config), LH_OK);
-    for (int32_t j = 0; j < LH_MAX_UNITS; ++j) {
+    for (int32_t j = 0; j < LH_MAX_UNITS; j++) {
         ck_assert_float_eq(network.weight[j], j < 50 ? -0.25f : 0.0f);
         ck_assert_float_eq(network.width[j], j < 50 ? 1.0f : 0.0f);
-        for (int32_t i = 0; i < LH_MAX_INPUTS; ++i) {
+        for (int32_t i = 0; i < LH_MAX_INPUTS; i++) {
             const float expected = j < 50 && i < 10 ? lh_random_uniform(&same) : 0.0f;
             ck_assert_float_eq(network.centre[i][j], expected);
         }
@@ -115,10 +115,10 @@ END_TEST
 
 START_TEST(value_against_reference) {
     const lh_network network = reference_network();
-    for (int32_t k = 0; k < COUNT(network_x); ++k) {
+    for (int32_t k = 0; k < COUNT(network_x); k++) {
         lh_activation at;
         expect_near(lh_network_value(&network, network_x[k], &at), network_y[k], 3e-6);
-        for (int32_t j = 0; j < LH_UNIT_SLOTS; ++j) {
+        for (int32_t j = 0; j < LH_UNIT_SLOTS; j++) {
             expect_near(at.phi[j], j < NETWORK_UNITS ? network_phi[k][j] : 0.0, 5e-7);
         }
     }
@@ -135,13 +135,13 @@ static void expect_learned(bool exact, const double (*weight)[NETWORK_UNITS], co
     lh_network_config config = reference_config();
     config.exact_gradient = exact;
     const lh_network before = reference_network();
-    for (int32_t k = 0; k < COUNT(network_x); ++k) {
+    for (int32_t k = 0; k < COUNT(network_x); k++) {
         lh_network network = before;
         expect_held(learn(&network, &config, network_x[k], learn_alpha[k], learn_delta[k]), 0, 0, 0);
-        for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
+        for (int32_t j = 0; j < NETWORK_UNITS; j++) {
             expect_change(network.weight[j], weight[k][j], before.weight[j], fabs(weight[k][j] - before.weight[j]));
             expect_change(network.width[j], width[k][j], before.width[j], fabs(width[k][j] - before.width[j]));
-            for (int32_t i = 0; i < NETWORK_INPUTS; ++i) {
+            for (int32_t i = 0; i < NETWORK_INPUTS; i++) {
                 const float old = before.centre[i][j];
                 expect_change(network.centre[i][j], centre[k][j][i], old, fabs(centre[k][j][i] - old));
             }
@@ -179,7 +179,7 @@ START_TEST(width_stops_at_its_floor) {
     /* a negative error narrows the units of positive weight and widens the others */
     const lh_held held = learn(&network, &config, network_x[0], 1.0f, -1000.0f);
     uint64_t at_floor = 0, at_limit = 0;
-    for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
+    for (int32_t j = 0; j < NETWORK_UNITS; j++) {
         ck_assert_float_ge(network.width[j], config.width_floor);
         ck_assert_float_le(network.width[j], LH_WIDTH_LIMIT);
         at_floor += network.width[j] == config.width_floor;
@@ -198,11 +198,11 @@ START_TEST(weight_stops_at_its_limit) {
     config.weight_limit = 20.0f;
     lh_network network = reference_network();
     expect_held(learn(&network, &config, network_x[0], 1.0f, 1e6f), NETWORK_UNITS, 0, 0);
-    for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
+    for (int32_t j = 0; j < NETWORK_UNITS; j++) {
         ck_assert_float_eq(network.weight[j], 20.0f);
     }
     expect_held(learn(&network, &config, network_x[0], 1.0f, -1e6f), NETWORK_UNITS, 0, 0);
-    for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
+    for (int32_t j = 0; j < NETWORK_UNITS; j++) {
         ck_assert_float_eq(network.weight[j], -20.0f);
     }
     expect_held(learn(&network, &config, network_x[0], 1.0f, 0.0f), 0, 0, 0); /* at the limit is not beyond it */
@@ -216,8 +216,8 @@ START_TEST(centre_stops_at_its_limit) {
     lh_network network = reference_network();
     const lh_held held = learn(&network, &config, network_x[0], 1.0f, 1e6f);
     uint64_t least = 0, largest = 0;
-    for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
-        for (int32_t i = 0; i < NETWORK_INPUTS; ++i) {
+    for (int32_t j = 0; j < NETWORK_UNITS; j++) {
+        for (int32_t i = 0; i < NETWORK_INPUTS; i++) {
             least += network.centre[i][j] == -LH_CENTRE_LIMIT;
             largest += network.centre[i][j] == LH_CENTRE_LIMIT;
         }
@@ -232,7 +232,7 @@ END_TEST
 START_TEST(what_is_not_finite_is_never_stored) {
     const lh_network_config config = reference_config();
     const float errors[] = {NAN, INFINITY, -INFINITY};
-    for (int32_t k = 0; k < COUNT(errors); ++k) {
+    for (int32_t k = 0; k < COUNT(errors); k++) {
         lh_network network = reference_network();
         const lh_network before = network;
         /* all weights and widths and every centre */
@@ -241,9 +241,9 @@ START_TEST(what_is_not_finite_is_never_stored) {
         ck_assert_mem_eq(&network, &before, sizeof network);
     }
     const float finite[] = {FLT_MAX, -FLT_MAX, 1e30f, -1e30f};
-    for (int32_t k = 0; k < COUNT(finite); ++k) {
+    for (int32_t k = 0; k < COUNT(finite); k++) {
         lh_network network = reference_network();
-        for (int32_t repeat = 0; repeat < 5; ++repeat) {
+        for (int32_t repeat = 0; repeat < 5; repeat++) {
             learn(&network, &config, network_x[k], 1.0f, finite[k]);
             ck_assert_int_eq(lh_network_validate(&network, &config), LH_OK);
             ck_assert(isfinite(value(&network, network_x[k])));
@@ -254,7 +254,7 @@ END_TEST
 
 START_TEST(network_of_extremes_has_a_finite_value) {
     lh_network network = reference_network();
-    for (int32_t j = 0; j < NETWORK_UNITS; ++j) {
+    for (int32_t j = 0; j < NETWORK_UNITS; j++) {
         network.weight[j] = 1e6f;
         network.width[j] = 0.01f;
         network.centre[0][j] = j % 2 ? LH_CENTRE_LIMIT : network_x[0][0];

@@ -28,7 +28,7 @@ END_TEST
 
 START_TEST(bad_fields_are_named) {
     const float bad[] = {-0.01f, 1.01f, NAN};
-    for (int32_t k = 0; k < COUNT(bad); ++k) {
+    for (int32_t k = 0; k < COUNT(bad); k++) {
         lh_q_learning_config config = lh_q_learning_config_default();
         config.learning_rate = bad[k];
         ck_assert_int_eq(lh_q_learning_config_validate(&config), LH_ERROR_RATE);
@@ -73,13 +73,13 @@ static void make_random_network(int32_t n, uint64_t seed, float narrow, float wi
     lh_q_learning_config config = lh_q_learning_config_default();
     config.network.inputs = 2 * n + 2;
     ck_assert_int_eq(lh_q_learning_init(&learner, &config, n + 2, n, seed), LH_OK);
-    for (int32_t i = 0; i < n + 2; ++i) {
+    for (int32_t i = 0; i < n + 2; i++) {
         states[i] = between(0.0f, 1.0f);
     }
-    for (int32_t j = 0; j < config.network.units; ++j) {
+    for (int32_t j = 0; j < config.network.units; j++) {
         learner.network.weight[j] = between(-10.0f, 10.0f);
         learner.network.width[j] = between(narrow, wide);
-        for (int32_t i = 0; i < 2 * n + 2; ++i) {
+        for (int32_t i = 0; i < 2 * n + 2; i++) {
             learner.network.centre[i][j] = between(-0.2f, 1.2f);
         }
     }
@@ -90,9 +90,9 @@ static void make_random_network(int32_t n, uint64_t seed, float narrow, float wi
 static double plain_value(const lh_network *network, const float *x, double *scale, double *spread) {
     double y = 0.0;
     *scale = *spread = 0.0;
-    for (int32_t j = 0; j < network->units; ++j) {
+    for (int32_t j = 0; j < network->units; j++) {
         double distance = 0.0;
-        for (int32_t i = 0; i < network->inputs; ++i) {
+        for (int32_t i = 0; i < network->inputs; i++) {
             distance += pow((double)x[i] - (double)network->centre[i][j], 2.0);
         }
         const double exponent = distance / pow(network->width[j], 2.0);
@@ -109,12 +109,12 @@ static double worst_error(int32_t n, const float *states, bool by_spread) {
     const float q_max = lh_q_learning_evaluate(&learner, states);
     double worst = 0.0;
     float largest = learner.q[0];
-    for (int32_t a = 0; a < learner.num_actions; ++a) {
+    for (int32_t a = 0; a < learner.num_actions; a++) {
         float x[LH_MAX_INPUTS];
         int8_t levels[LH_MAX_ACTUATORS];
         memcpy(x, states, sizeof *states * (size_t)(n + 2));
         lh_action_levels(a, n, levels);
-        for (int32_t k = 0; k < n; ++k) {
+        for (int32_t k = 0; k < n; k++) {
             x[n + 2 + k] = lh_action_input(levels[k]);
         }
         double scale;
@@ -129,8 +129,8 @@ static double worst_error(int32_t n, const float *states, bool by_spread) {
 }
 
 START_TEST(evaluation_is_that_of_the_plain_loop) {
-    for (int32_t n = 1; n <= LH_MAX_ACTUATORS; ++n) {
-        for (uint64_t seed = 1; seed <= (n < 6 ? 100 : 3); ++seed) {
+    for (int32_t n = 1; n <= LH_MAX_ACTUATORS; n++) {
+        for (uint64_t seed = 1; seed <= (n < 6 ? 100 : 3); seed++) {
             float states[LH_MAX_STATE_INPUTS];
             make_random_network(n, seed, 0.7f, 2.0f, states);
             ck_assert_double_le(worst_error(n, states, false), 1e-6);
@@ -142,8 +142,8 @@ END_TEST
 /* Narrow units reach far down, where the exponents are large and their rounding counts; wide ones hardly differ. */
 START_TEST(evaluation_with_extreme_widths) {
     const float width[][2] = {{0.05f, 0.1f}, {0.05f, 0.7f}, {2.0f, LH_WIDTH_LIMIT}};
-    for (int32_t k = 0; k < COUNT(width); ++k) {
-        for (uint64_t seed = 1; seed <= 100; ++seed) {
+    for (int32_t k = 0; k < COUNT(width); k++) {
+        for (uint64_t seed = 1; seed <= 100; seed++) {
             float states[LH_MAX_STATE_INPUTS];
             make_random_network(4, seed, width[k][0], width[k][1], states);
             ck_assert_double_le(worst_error(4, states, true), 1e-6);
@@ -181,14 +181,14 @@ END_TEST
 START_TEST(sequence_against_reference) {
     const lh_q_learning_config config = reference_config();
     ck_assert_int_eq(lh_q_learning_init(&learner, &config, LEARNER_STATES, LEARNER_CONTROLLED, 7), LH_OK);
-    for (int32_t k = 0; k < LEARNER_STEPS; ++k) {
+    for (int32_t k = 0; k < LEARNER_STEPS; k++) {
         const float q_max = lh_q_learning_evaluate(&learner, learner_state[k + 1]);
         expect_near(q_max, learner_q_max[k], 1e-5);
         const float td_error = lh_q_learning_learn(&learner, learner_state[k], learner_action[k], learner_reward[k],
                                                    q_max, learner_terminal[k] != 0);
         expect_near(td_error, learner_td_error[k], 2e-5);
     }
-    for (int32_t j = 0; j < LEARNER_UNITS; ++j) {
+    for (int32_t j = 0; j < LEARNER_UNITS; j++) {
         expect_near(learner.network.weight[j], learner_weight[j], 5e-6);
     }
     ck_assert_uint_eq(learner.held.weights + learner.held.widths + learner.held.centres, 0);
@@ -227,7 +227,7 @@ START_TEST(choice_is_greedy_or_by_probability) {
     ck_assert_int_eq(greedy.action, lh_boltzmann_greedy(learner.q, 9));
 
     int32_t others = 0;
-    for (int32_t i = 0; i < 100; ++i) {
+    for (int32_t i = 0; i < 100; i++) {
         lh_choice choice;
         lh_q_learning_choose(&learner, 1.0f, false, &choice);
         ck_assert_float_eq(choice.q, learner.q[choice.action]);
@@ -254,7 +254,7 @@ START_TEST(converges_on_two_states) {
     const float states[][1] = {{0.0f}, {1.0f}};
     lh_random random;
     lh_random_init(&random, 99);
-    for (int32_t i = 0; i < 20000; ++i) {
+    for (int32_t i = 0; i < 20000; i++) {
         const int32_t state = (int32_t)(lh_random_next(&random) >> 31);
         const int32_t action = (int32_t)(lh_random_next(&random) % 3);
         const bool forward = action == 2;

@@ -62,7 +62,7 @@ START_TEST(inputs_of_the_paper) {
     state.orientation.z *= 1.05f;
     float again[6];
     lh_observation(&robot, &controlled, &state, lh_quat_normalise(state.orientation), again);
-    for (int32_t i = 0; i < 6; ++i) {
+    for (int32_t i = 0; i < 6; i++) {
         expect_near(again[i], inputs[i], 1e-6);
     }
 }
@@ -81,7 +81,7 @@ START_TEST(values_beyond_their_range_are_counted) {
     ck_assert_float_eq(inputs[0], 0.0f);
     ck_assert_float_eq(inputs[3], 1.0f);
     ck_assert_float_eq(inputs[4], 1.0f);
-    for (int32_t i = 0; i < 6; ++i) {
+    for (int32_t i = 0; i < 6; i++) {
         ck_assert(inputs[i] >= 0.0f && inputs[i] <= 1.0f);
     }
 }

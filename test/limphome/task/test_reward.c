@@ -49,7 +49,7 @@ END_TEST
 
 START_TEST(motion_against_reference) {
     lh_reward_config config = lh_reward_config_default();
-    for (int32_t k = 0; k < COUNT(motion_reward); ++k) {
+    for (int32_t k = 0; k < COUNT(motion_reward); k++) {
         const lh_pose2 before = pose(motion_before[k]);
         const lh_pose2 after = pose(motion_after[k]);
         config.heading_error = false;
