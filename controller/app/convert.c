@@ -75,10 +75,9 @@ lh_state convert_state(const limphome_robot_state_t *message) {
 }
 
 lh_controlled convert_controlled(const limphome_robot_state_t *message) {
-    enum { FAILED = 1 };
     lh_controlled controlled = {.count = 0};
     for (int32_t i = 0; i < message->num_actuators && i < LH_MAX_ACTUATORS; i++) {
-        if (message->actuator_health[i] != FAILED) {
+        if (message->actuator_health[i] != LIMPHOME_ROBOT_STATE_T_FAILED) {
             controlled.index[controlled.count++] = i;
         }
     }

@@ -100,9 +100,9 @@ Scene::Scene(const RobotModel &model, const settings &s, const Ground &ground, c
 }
 
 void Scene::fail(const Failure &failure) {
-    drives[static_cast<std::size_t>(failure.actuator)].fail(failure.condition, failure.weak_factor);
+    drives[static_cast<std::size_t>(failure.actuator)].fail(failure.condition, failure.left);
     if (failure.condition == DriveCondition::slipping) {
-        robot.scale_friction(failure.actuator, failure.slip_factor);
+        robot.scale_friction(failure.actuator, failure.left);
     }
 }
 

@@ -22,14 +22,14 @@ Drive::Drive(const Actuator &actuator, const PidGains &gains, double time_step)
       upper_(actuator.upper),
       torques_(static_cast<std::size_t>(std::max(1.0, std::round(effort_window / time_step))), 0.0) {}
 
-void Drive::fail(DriveCondition condition, double weak_factor) {
+void Drive::fail(DriveCondition condition, double left) {
     condition_ = condition;
     switch (condition) {
         case DriveCondition::sound:
         case DriveCondition::slipping:
             break;
         case DriveCondition::weak:
-            torque_limit_ *= weak_factor;
+            torque_limit_ *= left;
             break;
         case DriveCondition::locked:
             give_out(std::numeric_limits<double>::infinity());

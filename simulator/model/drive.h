@@ -34,8 +34,8 @@ class Drive {
    public:
     Drive(const Actuator &actuator, const PidGains &gains, double time_step);
 
-    // From now on; a weak drive keeps this share of its torque limit.
-    void fail(DriveCondition condition, double weak_factor);
+    // From now on; a weak drive has this share of its torque limit left.
+    void fail(DriveCondition condition, double left);
     // Wanted rate [rad/s]; a failed drive does not obey.
     void command(double rate);
     // What the solver has to see to, from angle and rate at the start of a time step.

@@ -6,20 +6,6 @@
 namespace limphome {
 namespace {
 
-DriveCondition condition(settings_failure_mode mode) {
-    switch (mode) {
-        case SETTINGS_LOCKED:
-            return DriveCondition::locked;
-        case SETTINGS_FREE:
-            return DriveCondition::free;
-        case SETTINGS_SLIPPING:
-            return DriveCondition::slipping;
-        case SETTINGS_WEAK:
-            return DriveCondition::weak;
-    }
-    throw std::logic_error("[failure] mode = " + std::to_string(mode) + " is not known");
-}
-
 // Crawlers come first among the actuators, then the arm joints.
 int actuator_index(int64_t failed, const RobotModel &model) {
     if (failed < SETTINGS_FAILED_JOINT) {
@@ -34,15 +20,27 @@ int actuator_index(int64_t failed, const RobotModel &model) {
     return static_cast<int>(model.crawlers.size() + joint);
 }
 
+Failure planned(const settings_failure &f, int actuator) {
+    switch (static_cast<settings_failure_mode>(f.mode)) {
+        case SETTINGS_LOCKED:
+            return {actuator, DriveCondition::locked, 0, f.at_s};
+        case SETTINGS_FREE:
+            return {actuator, DriveCondition::free, 0, f.at_s};
+        case SETTINGS_SLIPPING:
+            return {actuator, DriveCondition::slipping, f.slip_factor, f.at_s};
+        case SETTINGS_WEAK:
+            return {actuator, DriveCondition::weak, f.weak_factor, f.at_s};
+    }
+    throw std::logic_error("[failure] mode = " + std::to_string(f.mode) + " is not known");
+}
+
 }  // namespace
 
 std::vector<Failure> planned_failures(const settings &configuration, const RobotModel &model) {
     std::vector<Failure> failures;
     for (const settings_failure &f : {configuration.failure, configuration.second_failure}) {
         if (f.actuator != SETTINGS_FAILED_NONE) {
-            failures.push_back({actuator_index(f.actuator, model),
-                                condition(static_cast<settings_failure_mode>(f.mode)), f.weak_factor, f.slip_factor,
-                                f.at_s});
+            failures.push_back(planned(f, actuator_index(f.actuator, model)));
         }
     }
     return failures;

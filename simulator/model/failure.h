@@ -13,9 +13,8 @@ namespace limphome {
 struct Failure {
     int actuator;
     DriveCondition condition;
-    double weak_factor;  // of a weak drive: share of its torque limit that is left
-    double slip_factor;  // of a slipping crawler: share of its friction that is left
-    double time;         // since the reset [s]
+    double left;  // share of what it takes away: of a weak drive's torque limit, a slipping crawler's friction
+    double time;  // since the reset [s]
 };
 
 // Throws std::runtime_error if the robot does not have that joint.

@@ -20,11 +20,11 @@
 
 namespace limphome {
 
-// Whether an actuator does what it is told; numbers of robot_state_t.actuator_health.
+// Whether an actuator does what it is told: robot_state_t.actuator_health.
 enum class Health : int8_t {
-    obeys = 0,
-    failed = 1,  // does not obey: locked, free or slipping
-    weak = 2     // obeys, with less than its rated torque
+    obeys = robot_state_t::OBEYS,
+    failed = robot_state_t::FAILED,  // does not obey: locked, free or slipping
+    weak = robot_state_t::WEAK       // obeys, with less than its rated torque
 };
 
 class Machine {
@@ -35,8 +35,9 @@ class Machine {
     virtual int num_actuators() const = 0;
 
     // Puts the robot into its initial pose, at rest, and returns once it is there: on hardware that may take a while
-    // and a person. Called between episodes, never at the start: the machine begins where it is. What is drawn at
-    // random follows from `episode`, the number of the one that begins, 0 before the first.
+    // and a person. Called when a controller takes the machine up, between episodes and after a fault; not when the
+    // loop begins, the machine is where it is. What is drawn at random follows from `episode`, the number of the one
+    // that begins, 0 before the first.
     virtual void reset(int64_t episode) = 0;
 
     // Wanted rates from now on: belt speeds of the crawlers [m/s], then rates of the arm joints [rad/s]; entries from

@@ -1,6 +1,6 @@
 #!/bin/sh
-# check_controller_alone.sh SOURCE: the controller is configured and built where what only the simulator needs is hidden,
-# and without our presets a warning is no error.
+# check_controller_alone.sh SOURCE: controller and plant are configured and built where what only the simulator needs is
+# hidden, and without our presets a warning is no error.
 set -eu
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -25,6 +25,7 @@ configure "$1" OFF
 cmake --build "$work/OFF"
 "$work/OFF/bin/limphome-controller" --version
 test ! -e "$work/OFF/bin/limphome-simulator"
+test -e "$work/OFF/simulator/plant/liblimphome_plant.a"
 if grep -q -e -Werror "$work/OFF/build.ninja"; then
     echo "warnings are errors"
     exit 1

@@ -3,7 +3,7 @@
 set(limphome_test_modules
   base/error base/random base/vector body/kinematics body/robot body/stability task/action task/episode
   task/observation task/reward task/task learning/boltzmann learning/learner learning/network
-  learning/q_learning controller)
+  learning/q_learning controller limits runs)
 
 # Adds the program test_TOPIC of a module, whose tests lie in `folder`, with further sources; names the topic in `result`.
 function(limphome_test module folder result)
