@@ -134,8 +134,12 @@ double Reader::positive(const TiXmlElement &element, const char *attribute) cons
 
 void Reader::parse() {
     if (!document_.LoadFile(path_)) {
-        throw std::runtime_error(path_ + ": line " + std::to_string(document_.ErrorRow()) + ": " +
-                                 document_.ErrorDesc());
+        if (document_.ErrorId() == TiXmlBase::TIXML_ERROR_OPENING_FILE) {
+            throw std::runtime_error(path_ + ": cannot be opened");
+        }
+        // it gives no line where it has found no element at all
+        const std::string line = document_.ErrorRow() > 0 ? "line " + std::to_string(document_.ErrorRow()) + ": " : "";
+        throw std::runtime_error(path_ + ": " + line + document_.ErrorDesc());
     }
     TiXmlPrinter printer;
     document_.Accept(&printer);
