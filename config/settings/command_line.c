@@ -43,7 +43,7 @@ static const char shared_help[] =
     "  --config FILE            settings of the experiment (INI); without it, the paper's\n"
     "  --set section.key=value  one setting, over those of the file; may be repeated\n"
     "  --robot FILE             the robot (URDF); default crawler.urdf\n"
-    "  --lcm-url URL            bus to talk on, such as udpm://239.255.76.67:7667?ttl=0\n"
+    "  --lcm-url URL            bus to talk on; default $LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0\n"
     "  --print-settings         print all settings as resolved, as an INI file, and exit\n"
     "  --help-settings          print every setting with range, default and meaning, and exit\n"
     "  --version                print the version and exit\n"
