@@ -89,6 +89,13 @@ def test_resume_of_what_is_not_a_run(tmp_path):
     assert result.returncode == 2 and "not a run folder" in result.stderr
 
 
+def test_resume_to_fewer_episodes_than_there_are(smoke_run):
+    before = smoke_run.config.read_bytes()
+    result = run_script("train", "--resume", smoke_run.path, "--episodes", 3, check=False)
+    assert result.returncode == 2 and "--episodes 3" in result.stderr and "30 already" in result.stderr
+    assert smoke_run.config.read_bytes() == before
+
+
 @pytest.mark.parametrize(
     "program", [paths.program("simulator"), paths.program("controller")], ids=["simulator", "controller"]
 )
@@ -114,6 +121,15 @@ def test_programs_refuse_a_bad_robot(tmp_path, program, change):
     )
     assert result.returncode == 2, result.stderr
     assert "bad.urdf" in result.stderr
+
+
+@pytest.mark.parametrize(
+    "program", [paths.program("simulator"), paths.program("controller")], ids=["simulator", "controller"]
+)
+def test_programs_tell_of_a_missing_robot(tmp_path, program):
+    command = [program, "--robot", tmp_path / "none.urdf", "--lcm-url", "memq://"]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=30)
+    assert result.returncode == 2 and "none.urdf: cannot be opened" in result.stderr
 
 
 @pytest.mark.parametrize(

@@ -49,10 +49,14 @@ def new_folder(args):
 
 def resumed_folder(args):
     folder = runfolder.existing(args.resume, "manifest", "episodes", "checkpoints")
-    if folder.newest_checkpoint() == 0:
+    done = folder.newest_checkpoint()
+    if done == 0:
         raise runfolder.InputError(f"{args.resume}: holds no checkpoint to go on from")
     if args.episodes is not None:
-        folder.config.write_text(runfolder.resolve_settings(folder.config, [f"learning.episodes={args.episodes}"]))
+        settings = runfolder.resolve_settings(folder.config, [f"learning.episodes={args.episodes}"])
+        if args.episodes < done:
+            raise runfolder.InputError(f"--episodes {args.episodes}: {args.resume} has {done} already")
+        folder.config.write_text(settings)
     return folder
 
 
