@@ -120,9 +120,16 @@ def resolve_settings(config, assignments):
     return result.stdout
 
 
+def find_robot(robot):
+    """`robot`, or the one that comes along where it is named without a folder and is not here: as --config is found."""
+    own = paths.CONFIG / robot
+    return own if Path(robot).name == str(robot) and not Path(robot).exists() and own.is_file() else Path(robot)
+
+
 def create(out, config, robot, assignments):
     """Makes a run folder with its inputs: config.ini as resolved and robot.urdf. `out` None: a new one below runs/."""
     resolved = resolve_settings(config, assignments)
+    robot = find_robot(robot)
     if not Path(robot).is_file():
         raise InputError(f"{robot}: cannot be opened: no such file")
     if out is None:

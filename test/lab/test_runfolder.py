@@ -4,7 +4,8 @@ from dataclasses import fields
 
 import pytest
 
-from limphome_lab.runfolder import Episode, EpisodeTail, InputError
+from limphome_lab import paths
+from limphome_lab.runfolder import Episode, EpisodeTail, InputError, find_robot
 
 HEADER = ",".join(field.name for field in fields(Episode)) + "\n"
 
@@ -55,3 +56,12 @@ def test_table_with_another_header_is_refused(table):
     table.write_text("episode,reward\n1,2\n")
     with pytest.raises(InputError, match="header"):
         EpisodeTail(table).read_new()
+
+
+def test_robot_without_a_folder_is_the_one_here_then_the_one_that_comes_along(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert find_robot("two_arm.urdf") == paths.CONFIG / "two_arm.urdf"
+    assert not find_robot("none.urdf").is_absolute()
+    (tmp_path / "two_arm.urdf").write_text("")
+    assert find_robot("two_arm.urdf").resolve() == tmp_path / "two_arm.urdf"
+    assert not find_robot("config/two_arm.urdf").is_absolute()
