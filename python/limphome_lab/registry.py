@@ -8,13 +8,15 @@ import json
 import os
 from pathlib import Path
 
+from limphome_lab.ending import Ending
+
 
 def directory():
     runtime = os.environ.get("XDG_RUNTIME_DIR")
     path = Path(runtime) / "limphome" if runtime and Path(runtime).is_dir() else Path(f"/tmp/limphome-{owner()}")
     path.mkdir(mode=0o700, parents=True, exist_ok=True)
     if path.stat().st_uid != os.geteuid():
-        raise PermissionError(f"{path} belongs to another user")
+        raise Ending(f"{path} belongs to another user; remove it, or set XDG_RUNTIME_DIR to a folder of your own")
     return path
 
 

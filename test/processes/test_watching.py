@@ -11,6 +11,7 @@ import pytest
 from conftest import ROOT, TIME_LIMIT_S, run_script, start_script, wait_until
 from limphome_lab import registry
 from limphome_lab.channels import DECISION, STATE
+from limphome_lab.ending import Ending
 from limphome_lab.runfolder import RunFolder
 
 
@@ -71,6 +72,14 @@ def test_spy_as_text_shows_decoded_values(launched):
     spy.send_signal(signal.SIGINT)
     spy.communicate(timeout=TIME_LIMIT_S)
     assert DECISION in seen and "num_actuators         5" in seen
+
+
+def test_registry_of_another_user(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    registry.directory()
+    monkeypatch.setattr(registry.os, "geteuid", lambda: tmp_path.stat().st_uid + 1)
+    with pytest.raises(Ending, match="belongs to another user"):
+        registry.directory()
 
 
 def test_spy_without_a_pair(tmp_path):
