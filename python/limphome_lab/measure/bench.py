@@ -170,7 +170,15 @@ def parse_arguments():
 def main():
     args = parse_arguments()
     url = network.enter(args.network)
-    figures = [*decision(), *simulator_step(), *lockstep_round_trip(url), *training_run()]
+    figures = []
+    for name, measure in {
+        "decision": decision,
+        "simulator_step": simulator_step,
+        "lockstep_round_trip": lambda: lockstep_round_trip(url),
+        "training_run": training_run,
+    }.items():
+        print(f"measuring {name}", file=sys.stderr, flush=True)
+        figures.extend(measure())
     print(table(figures))
     if args.json:
         args.json.write_text(json.dumps([figure.as_dict() for figure in figures], indent=2) + "\n")
