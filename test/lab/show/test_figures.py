@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from limphome_lab.show.figures import is_level
 from limphome_lab.show.figures.motion import convex_hull
 from limphome_lab.show.figures.style import episode_frame, running
 
@@ -40,3 +41,11 @@ def test_convex_hull_holds_every_point_on_its_left():
     for a, b in zip(hull, np.roll(hull, -1, axis=0), strict=True):
         edge, to_points = b - a, points - a
         assert (edge[0] * to_points[:, 1] - edge[1] * to_points[:, 0] >= -1e-12).all()
+
+
+LEVEL = {"incline_along_rad": "0", "incline_across_rad": "0", "rough_amplitude_m": "0", "step_height_m": "0"}
+
+
+def test_level_ground_is_told_from_any_other():
+    assert is_level(LEVEL | {"patch_share": "0.3"})
+    assert not any(is_level(LEVEL | {key: "0.1"}) for key in LEVEL)

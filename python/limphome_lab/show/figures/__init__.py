@@ -6,15 +6,22 @@ from limphome_lab.show.figures import learning, motion, reward, style, trajector
 FIRST, LAST = 0, -1  # as episode_states understands them
 
 
+def is_level(ground):
+    """Whether the ground of these settings is a level plane; loose patches leave it one."""
+    heights = ("incline_along_rad", "incline_across_rad", "rough_amplitude_m", "step_height_m")
+    return all(float(ground[key]) == 0 for key in heights)
+
+
 def draw_all(folder):
     """Draws every figure of a run into its figures/ folder; returns the files."""
     episodes = folder.read_episodes()
     recorded = episode_states(folder.messages, {FIRST, LAST})
-    goal_distance = float(folder.settings()["episode"]["goal_distance_m"])
+    settings = folder.settings()
+    goal_distance = float(settings["episode"]["goal_distance_m"])
     figures = {
         "fig7_trajectories": trajectories.draw(recorded[FIRST], recorded[LAST], goal_distance),
         "fig8_reward": reward.draw(episodes),
-        "fig9_motion": motion.draw(folder.robot, *recorded[LAST]),
+        "fig9_motion": motion.draw(folder.robot, *recorded[LAST], level=is_level(settings["ground"])),
         "fig_learning": learning.draw(episodes),
     }
     folder.figures.mkdir(exist_ok=True)

@@ -1,7 +1,8 @@
 """Fig. 9: how the robot moves in one episode, at a few times, seen from the side and from above.
 
 The frame is that of the episode: forward is the way it faced at the start, left is across it. The side view is from
-the side of the failed crawler; from the left, forward points to the left.
+the side of the failed crawler; from the left, forward points to the left. Only level ground is drawn: any other lies
+elsewhere under each part of the robot.
 """
 
 import matplotlib.pyplot as plt
@@ -18,7 +19,8 @@ CRAWLER = "#3d454d"
 ARM = style.ORANGE
 
 
-def draw(urdf, episode, states):
+def draw(urdf, episode, states, level=True):
+    """`level`: whether the ground is."""
     robot = Robot(urdf)
     chosen = [states[i] for i in np.unique(np.linspace(0, len(states) - 1, SNAPSHOTS).round().astype(int))]
     poses = [_parts(robot, episode, state) for state in chosen]
@@ -44,7 +46,9 @@ def draw(urdf, episode, states):
     for (side, above), state, parts in zip(axes.T, chosen, poses, strict=True):
         _view(side, parts, across=UP, nearness=lambda points: points[:, LEFT] if from_left else -points[:, LEFT])
         _view(above, parts, across=LEFT, nearness=lambda points: points[:, UP])
-        _surroundings(side, above, episode)
+        if level:
+            _ground(side)
+        _goal_line(side, above, episode)
         side.set_title(f"{state.utime * 1e-6 - begin:.1f} s")
         side.set(xlim=(low[FORWARD], high[FORWARD]), ylim=(low[UP], high[UP]))
         above.set(xlabel="forward [m]", ylim=(low[LEFT], high[LEFT]))
@@ -53,7 +57,9 @@ def draw(urdf, episode, states):
         axes[1, 0].invert_yaxis()
     axes[0, 0].set_ylabel(f"from the {'left' if from_left else 'right'}:\nup [m]")
     axes[1, 0].set_ylabel("from above:\nleft [m]")
-    _legend(figure, episode, [colour for _, colour in poses[-1]])
+    _legend(figure, [colour for _, colour in poses[-1]])
+    uneven = "" if level else "; the ground, which is not level, is not drawn"
+    figure.suptitle(f"Motion of the robot in episode {episode.episode}{uneven}")
     return figure
 
 
@@ -97,14 +103,17 @@ def _view(axes, parts, across, nearness):
         )
 
 
-def _surroundings(side, above, episode):
+def _ground(side):
     side.axhspan(-10, 0, color="#d9cfc1", zorder=1)
     side.axhline(0, color="#8a7a64", linewidth=1.2, zorder=2)
+
+
+def _goal_line(side, above, episode):
     for axes in (side, above):
         axes.axvline(episode.goal_distance, color=style.GREEN, linestyle="--", linewidth=1.4, zorder=2)
 
 
-def _legend(figure, episode, colours):
+def _legend(figure, colours):
     labels = {
         style.RED: "failed crawler",
         CRAWLER: "crawler",
@@ -117,7 +126,6 @@ def _legend(figure, episode, colours):
     ]
     handles.append(plt.Line2D([], [], color=style.GREEN, linestyle="--", label="goal line"))
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
-    figure.suptitle(f"Motion of the robot in episode {episode.episode}")
 
 
 def convex_hull(points):
