@@ -82,7 +82,7 @@ static bool join_bus(bus *b, const char *url, char error[ERROR_LENGTH]) {
     b->lcm = lcm_create(url);
     if (b->lcm == NULL) {
         return fail_with(
-            error, "%s: cannot join the bus; is the multicast group routed? (ip route add 239.255.76.67/32 dev lo)",
+            error, "%.200s: cannot join the bus; is the multicast group routed? (ip route add 239.255.76.67/32 dev lo)",
             url == NULL ? "default LCM URL" : url);
     }
     if (lcm_subscribe(b->lcm, LIMPHOME_CHANNEL_STATE, receive_state, b) == NULL ||
@@ -94,7 +94,7 @@ static bool join_bus(bus *b, const char *url, char error[ERROR_LENGTH]) {
 
 static bool open_log(bus *b, const char *path, bool append, char error[ERROR_LENGTH]) {
     b->log = path == NULL ? NULL : lcm_eventlog_create(path, append ? "a" : "w");
-    return path == NULL || b->log != NULL || fail_with(error, "%s: cannot be written: %s", path, strerror(errno));
+    return path == NULL || b->log != NULL || fail_with(error, "%.200s: cannot be written: %s", path, strerror(errno));
 }
 
 static bool draw_sender(bus *b, char error[ERROR_LENGTH]) {

@@ -21,12 +21,7 @@ static bool open_folder(run *r, const command_line *line) {
     if (!r->resuming) {
         return run_folder_create(&r->folder, line->out, r->error);
     }
-    if (!run_folder_resume(&r->folder, line->out, &r->checkpoint, r->error)) {
-        return false;
-    }
-    if (r->checkpoint.settings_hash != r->hash) {
-        fail_with(r->error, "%s: was made with other settings or another robot; it cannot be gone on with", line->out);
-        run_folder_close(&r->folder, r->error);
+    if (!run_folder_resume(&r->folder, line->out, r->hash, &r->checkpoint, r->error)) {
         return false;
     }
     r->finished = r->checkpoint.episode;
