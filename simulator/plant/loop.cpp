@@ -26,14 +26,17 @@ Loop::Loop(Machine &machine, Link &link, const settings &s)
     }
 }
 
-// Nobody commands a machine any more whose loop has ended.
+// Nobody commands a machine any more whose loop has ended. What is told is what went wrong first.
 bool Loop::run(const volatile std::sig_atomic_t *stop) {
     try {
         const bool sound = follow(stop);
         machine_.command(at_rest);
         return sound;
     } catch (...) {
-        machine_.command(at_rest);
+        try {
+            machine_.command(at_rest);
+        } catch (...) {
+        }
         throw;
     }
 }

@@ -289,5 +289,33 @@ TEST(Loop, MachineIsAtRestWhateverEndsTheLoop) {
     EXPECT_EQ(toy.commands.back(), rest);
 }
 
+TEST(Loop, TellsWhatWentWrongFirst) {
+    class Unplugged : public SimulatedToy {
+       public:
+        void advance(double) override {
+            unplugged_ = true;
+            throw std::runtime_error("the cable is out");
+        }
+        void command(const double velocity[max_actuators]) override {
+            if (unplugged_) {
+                throw std::runtime_error("no answer");
+            }
+            SimulatedToy::command(velocity);
+        }
+
+       private:
+        bool unplugged_ = false;
+    };
+    Unplugged toy;
+    Plant plant(toy, lockstep());
+    plant.controller.answer = [&plant](const robot_state_t &state) { plant.controller.command(state, {0.3}); };
+    try {
+        plant.run();
+        FAIL() << "nothing was told";
+    } catch (const std::runtime_error &error) {
+        EXPECT_STREQ(error.what(), "the cable is out");
+    }
+}
+
 }  // namespace
 }  // namespace limphome
