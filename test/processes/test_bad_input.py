@@ -84,6 +84,13 @@ def test_folder_that_is_not_empty(tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == ["thesis.txt"]
 
 
+def test_folder_that_cannot_be_made(tmp_path):
+    file = tmp_path / "file"
+    file.write_text("not a folder")
+    result = run_script("train", "--config", SMOKE, "--out", file / "run", check=False)
+    assert_refused(result, file / "run", [str(file / "run"), "Not a directory"])
+
+
 def test_resume_of_what_is_not_a_run(tmp_path):
     result = run_script("train", "--resume", tmp_path, check=False)
     assert result.returncode == 2 and "not a run folder" in result.stderr
