@@ -126,6 +126,16 @@ def test_programs_refuse_a_bad_robot(tmp_path, program, change):
 @pytest.mark.parametrize(
     "program", [paths.program("simulator"), paths.program("controller")], ids=["simulator", "controller"]
 )
+def test_programs_refuse_a_folder_for_a_robot(tmp_path, program):
+    command = [program, "--robot", tmp_path, "--lcm-url", "memq://"]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=30)
+    assert result.returncode == 2
+    assert str(tmp_path) in result.stderr and "cannot be read: " in result.stderr
+
+
+@pytest.mark.parametrize(
+    "program", [paths.program("simulator"), paths.program("controller")], ids=["simulator", "controller"]
+)
 @by_name(BAD_FILES)
 def test_programs_refuse_a_bad_configuration(tmp_path, program, given, words):
     file = tmp_path / "bad.ini"
@@ -133,3 +143,13 @@ def test_programs_refuse_a_bad_configuration(tmp_path, program, given, words):
     result = subprocess.run([program, "--config", file], capture_output=True, text=True, timeout=30)
     assert result.returncode == 2
     assert all(word in result.stderr for word in words), result.stderr
+
+
+@pytest.mark.parametrize(
+    "program", [paths.program("simulator"), paths.program("controller")], ids=["simulator", "controller"]
+)
+@pytest.mark.parametrize("option", ["--print-settings", "--help-settings", "--help", "--version"])
+def test_what_cannot_be_printed_is_told(program, option):
+    with open("/dev/full", "w") as full:
+        result = subprocess.run([program, option], stdout=full, stderr=subprocess.PIPE, text=True, timeout=30)
+    assert result.returncode == 2 and "No space left" in result.stderr
