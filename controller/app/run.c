@@ -28,6 +28,12 @@ static bool open_folder(run *r, const command_line *line) {
     return true;
 }
 
+static bool open_log(run *r) {
+    char log[RUN_FOLDER_PATH_LENGTH + 32];
+    snprintf(log, sizeof log, "%s/messages.lcmlog", r->folder.path);
+    return r->folder.path[0] == '\0' || bus_record(&r->bus, log, r->resuming, r->error);
+}
+
 bool run_open(run *r, const command_line *line) {
     memset(r, 0, sizeof *r);
     r->settings = line->settings;
@@ -40,13 +46,12 @@ bool run_open(run *r, const command_line *line) {
         return fail_with(r->error, "settings: %s", lh_error_text(bad));
     }
     r->hash = hash_of(r);
-    if (!open_folder(r, line)) {
+    if (!bus_open(&r->bus, line->lcm_url, r->error)) { /* before there is a folder that would be in the way */
         return false;
     }
-    char log[RUN_FOLDER_PATH_LENGTH + 32];
-    snprintf(log, sizeof log, "%s/messages.lcmlog", r->folder.path);
-    if (!bus_open(&r->bus, line->lcm_url, r->folder.path[0] == '\0' ? NULL : log, r->resuming, r->error)) {
+    if (!open_folder(r, line) || !open_log(r)) {
         run_folder_close(&r->folder, r->error);
+        bus_close(&r->bus, r->error);
         return false;
     }
     session_init(&r->session, r->settings.link.sender_timeout_s);

@@ -153,3 +153,8 @@ def test_what_cannot_be_printed_is_told(program, option):
     with open("/dev/full", "w") as full:
         result = subprocess.run([program, option], stdout=full, stderr=subprocess.PIPE, text=True, timeout=30)
     assert result.returncode == 2 and "No space left" in result.stderr
+
+
+def test_no_folder_is_made_where_the_bus_cannot_be_joined(tmp_path):
+    command = [paths.program("controller"), "--config", SMOKE, "--out", tmp_path / "run", "--lcm-url", "nowhere://"]
+    assert_refused(subprocess.run(command, capture_output=True, text=True), tmp_path / "run", ["cannot join the bus"])
