@@ -143,9 +143,11 @@ bool Loop::advance_real_time() {
     for (long done = 1; done <= slices; done++) {
         obey();
         machine_.advance(slice);
-        for (double ahead; (ahead = clock_ + static_cast<double>(done) * slice - monotonic_now()) > 0;) {
-            link_.wait(ahead);
-        }
+        double ahead;
+        do {  // a machine that does not keep up hears its controller all the same
+            ahead = clock_ + static_cast<double>(done) * slice - monotonic_now();
+            link_.wait(std::max(ahead, 0.0));
+        } while (ahead > 0);
         if (link_.reset_requested()) {
             return false;
         }

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <functional>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "limphome_channels.h"
@@ -273,6 +275,29 @@ TEST(Loop, InRealTimeASilentControllerLetsTheMachineComeToRest) {
     EXPECT_GT(plant.controller.statuses.back().late, 0);
     EXPECT_EQ(plant.controller.statuses.back().simulated_time, 0);
     EXPECT_TRUE(plant.controller.truths.empty());
+}
+
+TEST(Loop, InRealTimeAMachineThatDoesNotKeepUpObeysAllTheSame) {
+    class Slow : public Toy {
+       public:
+        explicit Slow(volatile std::sig_atomic_t *stop) : stop_(stop) {}
+        void advance(double seconds) override {
+            std::this_thread::sleep_for(std::chrono::duration<double>(2 * seconds));
+            *stop_ = ++slices_ == 10 ? 1 : 0;
+        }
+
+       private:
+        volatile std::sig_atomic_t *stop_;
+        int slices_ = 0;
+    };
+    volatile std::sig_atomic_t over = 0;
+    Slow toy(&over);
+    settings s = real_time();
+    s.link.command_timeout_s = 10;
+    Plant plant(toy, s);
+    plant.controller.answer = [&plant](const robot_state_t &state) { plant.controller.command(state, {0.3}); };
+    EXPECT_TRUE(plant.loop.run(&over));
+    EXPECT_NE(std::find(toy.commands.begin(), toy.commands.end(), Rates{0.3}), toy.commands.end());
 }
 
 TEST(Loop, MachineIsAtRestWhateverEndsTheLoop) {
