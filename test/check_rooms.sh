@@ -5,10 +5,12 @@ set -eu
 cd "$1"
 prefix=$2
 shift 2
+rooms=$(printf '|%s' "$@")
 before=""
 for room in "$@"; do
     before="$before${before:+|}$room"
-    if grep -nE '#include "' "$room"/*.[ch]* | grep -vE "#include \"$prefix($before)/"; then
+    if grep -nE "# *include *(\"|<$prefix(${rooms#|})/)" "$room"/*.[ch]* |
+        grep -vE "# *include *\"$prefix($before)/"; then
         echo "$room/ may include only $before"
         exit 1
     fi

@@ -1,5 +1,6 @@
 #include "command_line.h"
 
+#include <errno.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <string.h>
@@ -69,6 +70,15 @@ static void print_help(command_line_program program) {
            controller ? "learns to move a robot with a failed crawler, or moves it with what was learned"
                       : "simulates the robot behind the messages a real one would speak",
            program_name(program), shared_help, controller ? controller_help : "", files_help);
+}
+
+/* What was asked for has been printed; BAD, having said so, where it did not get there. */
+static command_line_result end_of_print(void) {
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        fprintf(stderr, "cannot be printed: %s\n", strerror(errno));
+        return COMMAND_LINE_BAD;
+    }
+    return COMMAND_LINE_DONE;
 }
 
 /* Applies the file and the assignments, in this order wherever they stood; says what is wrong on stderr. */
@@ -144,13 +154,13 @@ command_line_result command_line_parse(int argc, char **argv, command_line_progr
                 break;
             case HELP:
                 print_help(program);
-                return COMMAND_LINE_DONE;
+                return end_of_print();
             case HELP_SETTINGS:
                 settings_describe(stdout);
-                return COMMAND_LINE_DONE;
+                return end_of_print();
             case VERSION:
                 printf("%s %s\n", program_name(program), LIMPHOME_VERSION);
-                return COMMAND_LINE_DONE;
+                return end_of_print();
             default: /* getopt_long has said what is wrong */
                 fprintf(stderr, "try %s --help\n", program_name(program));
                 return COMMAND_LINE_BAD;
@@ -166,7 +176,7 @@ command_line_result command_line_parse(int argc, char **argv, command_line_progr
     }
     if (print_settings) {
         settings_write(&line->settings, stdout);
-        return COMMAND_LINE_DONE;
+        return end_of_print();
     }
     return COMMAND_LINE_RUN;
 }

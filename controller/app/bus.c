@@ -82,7 +82,7 @@ static bool join_bus(bus *b, const char *url, char error[ERROR_LENGTH]) {
     b->lcm = lcm_create(url);
     if (b->lcm == NULL) {
         return fail_with(
-            error, "%s: cannot join the bus; is the multicast group routed? (ip route add 239.255.76.67/32 dev lo)",
+            error, "%.200s: cannot join the bus; is the multicast group routed? (ip route add 239.255.76.67/32 dev lo)",
             url == NULL ? "default LCM URL" : url);
     }
     if (lcm_subscribe(b->lcm, LIMPHOME_CHANNEL_STATE, receive_state, b) == NULL ||
@@ -92,25 +92,25 @@ static bool join_bus(bus *b, const char *url, char error[ERROR_LENGTH]) {
     return true;
 }
 
-static bool open_log(bus *b, const char *path, bool append, char error[ERROR_LENGTH]) {
-    b->log = path == NULL ? NULL : lcm_eventlog_create(path, append ? "a" : "w");
-    return path == NULL || b->log != NULL || fail_with(error, "%s: cannot be written: %s", path, strerror(errno));
-}
-
 static bool draw_sender(bus *b, char error[ERROR_LENGTH]) {
     return getrandom(&b->sender, sizeof b->sender, 0) == (ssize_t)sizeof b->sender ||
            fail_with(error, "no random numbers from the system: %s", strerror(errno));
 }
 
-bool bus_open(bus *b, const char *url, const char *log_path, bool append, char error[ERROR_LENGTH]) {
+bool bus_open(bus *b, const char *url, char error[ERROR_LENGTH]) {
     memset(b, 0, sizeof *b);
-    if (draw_sender(b, error) && join_bus(b, url, error) && open_log(b, log_path, append, error)) {
+    if (draw_sender(b, error) && join_bus(b, url, error)) {
         return true;
     }
     if (b->lcm != NULL) {
         lcm_destroy(b->lcm);
     }
     return false;
+}
+
+bool bus_record(bus *b, const char *log_path, bool append, char error[ERROR_LENGTH]) {
+    b->log = lcm_eventlog_create(log_path, append ? "a" : "w");
+    return b->log != NULL || fail_with(error, "%.200s: cannot be written: %s", log_path, strerror(errno));
 }
 
 bool bus_close(bus *b, char error[ERROR_LENGTH]) {

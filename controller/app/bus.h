@@ -31,9 +31,11 @@ typedef struct bus {
     double wait_time;              /* spent in bus_wait [s] */
 } bus;
 
-/* Joins the bus at `url` (NULL: LCM's default) and opens `log_path` (NULL: none), adding to it if `append`.
- * False, with the reason in `error` and nothing left open, on failure. */
-bool bus_open(bus *b, const char *url, const char *log_path, bool append, char error[ERROR_LENGTH]);
+/* Joins the bus at `url` (NULL: LCM's default). False, with the reason in `error` and nothing left open, on failure. */
+bool bus_open(bus *b, const char *url, char error[ERROR_LENGTH]);
+
+/* Records from now on in `log_path`, adding to it if `append`. False, with the reason in `error`, on failure. */
+bool bus_record(bus *b, const char *log_path, bool append, char error[ERROR_LENGTH]);
 
 /* Leaves the bus and closes the log. False, with the reason in `error`, if the log is not complete. */
 bool bus_close(bus *b, char error[ERROR_LENGTH]);

@@ -21,16 +21,17 @@ static bool open_folder(run *r, const command_line *line) {
     if (!r->resuming) {
         return run_folder_create(&r->folder, line->out, r->error);
     }
-    if (!run_folder_resume(&r->folder, line->out, &r->checkpoint, r->error)) {
-        return false;
-    }
-    if (r->checkpoint.settings_hash != r->hash) {
-        fail_with(r->error, "%s: was made with other settings or another robot; it cannot be gone on with", line->out);
-        run_folder_close(&r->folder, r->error);
+    if (!run_folder_resume(&r->folder, line->out, r->hash, &r->checkpoint, r->error)) {
         return false;
     }
     r->finished = r->checkpoint.episode;
     return true;
+}
+
+static bool open_log(run *r) {
+    char log[RUN_FOLDER_PATH_LENGTH + 32];
+    snprintf(log, sizeof log, "%s/messages.lcmlog", r->folder.path);
+    return r->folder.path[0] == '\0' || bus_record(&r->bus, log, r->resuming, r->error);
 }
 
 bool run_open(run *r, const command_line *line) {
@@ -45,13 +46,12 @@ bool run_open(run *r, const command_line *line) {
         return fail_with(r->error, "settings: %s", lh_error_text(bad));
     }
     r->hash = hash_of(r);
-    if (!open_folder(r, line)) {
+    if (!bus_open(&r->bus, line->lcm_url, r->error)) { /* before there is a folder that would be in the way */
         return false;
     }
-    char log[RUN_FOLDER_PATH_LENGTH + 32];
-    snprintf(log, sizeof log, "%s/messages.lcmlog", r->folder.path);
-    if (!bus_open(&r->bus, line->lcm_url, r->folder.path[0] == '\0' ? NULL : log, r->resuming, r->error)) {
+    if (!open_folder(r, line) || !open_log(r)) {
         run_folder_close(&r->folder, r->error);
+        bus_close(&r->bus, r->error);
         return false;
     }
     session_init(&r->session, r->settings.link.sender_timeout_s);
@@ -60,14 +60,18 @@ bool run_open(run *r, const command_line *line) {
 }
 
 /* Takes up what was learned before, if anything. */
-static lh_error restore_learner(run *r) {
+static bool restore_learner(run *r) {
     if (!r->evaluating && !r->resuming) {
-        return LH_OK;
+        return true;
     }
     lh_learned learned;
     const bool fits = r->resuming ? convert_from_checkpoint(&r->checkpoint, &r->controller, &learned)
                                   : convert_from_policy(&r->policy, &r->controller, &learned);
-    return fits ? lh_controller_restore(&r->controller, &learned, r->finished + 1) : LH_ERROR_NETWORK;
+    if (!fits) {
+        return fail_with(r->error, "what was learned is for other actuators, speeds, input ranges or learners");
+    }
+    const lh_error error = lh_controller_restore(&r->controller, &learned, r->finished + 1);
+    return error == LH_OK || fail_with(r->error, "what was learned cannot be taken up: %s", lh_error_text(error));
 }
 
 /* The first state tells which actuators obey; now the learner can be set up, or taken up where it was left. */
@@ -79,14 +83,11 @@ static bool begin_learner(run *r, const limphome_robot_state_t *state) {
     if (error == LH_OK && state->num_actuators != r->robot.robot.num_actuators) {
         error = LH_ERROR_STATE;
     }
-    if (error == LH_OK) {
-        error = restore_learner(r);
-    }
     if (error != LH_OK) {
         return fail_with(r->error, "the plant's robot and ours do not go together: %s", lh_error_text(error));
     }
-    r->learner_ready = true;
-    return true;
+    r->learner_ready = restore_learner(r);
+    return r->learner_ready;
 }
 
 static void send_reset(run *r) {

@@ -45,8 +45,8 @@ typedef struct run {
     double status_at; /* next status is due [s] */
 } run;
 
-/* Reads robot, policy or checkpoint, makes the run folder and joins the bus. False, with the reason in r->error and
- * nothing left open, if anything is wrong. */
+/* Reads the robot, joins the bus, reads policy or checkpoint and makes the run folder. False, with the reason in
+ * r->error and nothing left open, if anything is wrong. */
 bool run_open(run *r, const command_line *line);
 
 /* Decides until all episodes are done (true), or something fails or *stop becomes non-zero (false). */

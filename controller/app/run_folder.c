@@ -16,19 +16,29 @@ static const char csv_header[] =
 
 /* What a call of the system has left in errno. */
 static bool fail_by_system(char error[ERROR_LENGTH], const char *path) {
-    return fail_with(error, "%s: %s", path, strerror(errno));
+    return fail_with(error, "%.200s: %s", path, strerror(errno));
 }
 
 static bool join(char path[RUN_FOLDER_PATH_LENGTH], const char *folder, const char *name, char error[ERROR_LENGTH]) {
     const int length = snprintf(path, RUN_FOLDER_PATH_LENGTH, "%s/%s", folder, name);
-    return length < RUN_FOLDER_PATH_LENGTH || fail_with(error, "%s: the path is too long", folder);
+    return length < RUN_FOLDER_PATH_LENGTH || fail_with(error, "%.200s: the path is too long", folder);
 }
 
 static bool make_folder(const char *path, char error[ERROR_LENGTH]) {
     return mkdir(path, 0777) == 0 || errno == EEXIST || fail_by_system(error, path);
 }
 
-/* Writes beside the file and then renames, so that a reader or a crash never meets half of it. */
+/* Gives a file that was written beside `path` its name, so that a reader or a crash never meets half of it; nothing is
+ * left of one that could not be `written`. */
+static bool put_in_place(const char *fresh, const char *path, bool written, char error[ERROR_LENGTH]) {
+    if (written && rename(fresh, path) == 0) {
+        return true;
+    }
+    fail_by_system(error, path);
+    remove(fresh);
+    return false;
+}
+
 static bool replace_file(const char *path, const void *data, size_t size, char error[ERROR_LENGTH]) {
     char fresh[RUN_FOLDER_PATH_LENGTH + 8];
     snprintf(fresh, sizeof fresh, "%s.new", path);
@@ -36,10 +46,8 @@ static bool replace_file(const char *path, const void *data, size_t size, char e
     if (file == NULL) {
         return fail_by_system(error, fresh);
     }
-    bool good = fwrite(data, 1, size, file) == size && fflush(file) == 0 && fsync(fileno(file)) == 0;
-    good = fclose(file) == 0 && good;
-    good = good && rename(fresh, path) == 0;
-    return good || fail_by_system(error, path);
+    const bool good = fwrite(data, 1, size, file) == size && fflush(file) == 0 && fsync(fileno(file)) == 0;
+    return put_in_place(fresh, path, fclose(file) == 0 && good, error);
 }
 
 /* Reads a whole small file; its length, or -1. */
@@ -53,7 +61,7 @@ static long read_file(const char *path, unsigned char bytes[LARGEST_FILE], char 
     const bool good = !ferror(file);
     fclose(file);
     if (!good) {
-        fail_with(error, "%s: cannot be read", path);
+        fail_with(error, "%.200s: cannot be read", path);
         return -1;
     }
     return (long)size;
@@ -73,7 +81,7 @@ bool run_folder_create(run_folder *folder, const char *path, char error[ERROR_LE
     folder->episodes = fopen(name, "wx");
     if (folder->episodes == NULL) {
         return errno == EEXIST
-                   ? fail_with(error, "%s: there is a run in this folder already; --resume goes on with it", name)
+                   ? fail_with(error, "%.200s: there is a run in this folder already; --resume goes on with it", name)
                    : fail_by_system(error, name);
     }
     if (fputs(csv_header, folder->episodes) < 0 || fflush(folder->episodes) != 0) {
@@ -103,7 +111,7 @@ static long newest_checkpoint(const char *folder, char error[ERROR_LENGTH]) {
     }
     closedir(entries);
     if (newest < 0) {
-        fail_with(error, "%s: holds no checkpoint to go on from", folder);
+        fail_with(error, "%.200s: holds no checkpoint to go on from", folder);
     }
     return newest;
 }
@@ -123,19 +131,24 @@ static bool cut_episodes(const char *path, int32_t episodes, char error[ERROR_LE
     }
     char line[LINE_LENGTH];
     int32_t rows = -1;
-    bool good = true;
-    while (good && rows < episodes && fgets(line, sizeof line, old) != NULL) {
-        good = strchr(line, '\n') != NULL && (rows >= 0 || strcmp(line, csv_header) == 0) && fputs(line, cut) >= 0;
+    bool whole = true, written = true;
+    while (whole && written && rows < episodes) {
+        whole = fgets(line, sizeof line, old) != NULL && strchr(line, '\n') != NULL &&
+                (rows >= 0 || strcmp(line, csv_header) == 0);
+        written = !whole || fputs(line, cut) >= 0;
         rows++;
     }
     fclose(old);
-    good = fclose(cut) == 0 && good && rows == episodes;
-    return good ? rename(fresh, path) == 0 || fail_by_system(error, path)
-                : fail_with(error, "%s: does not hold the rows of all episodes up to the checkpoint", path);
+    written = fclose(cut) == 0 && written;
+    if (!whole) {
+        remove(fresh);
+        return fail_with(error, "%.200s: does not hold the rows of all episodes up to the checkpoint", path);
+    }
+    return put_in_place(fresh, path, written, error);
 }
 
 /* Reads and checks checkpoint/episode_NNNNNN.lcm of that number. */
-static bool read_checkpoint(const char *folder, long number, limphome_checkpoint_t *checkpoint,
+static bool read_checkpoint(const char *folder, long number, int64_t settings_hash, limphome_checkpoint_t *checkpoint,
                             char error[ERROR_LENGTH]) {
     char name[RUN_FOLDER_PATH_LENGTH];
     char base[48];
@@ -147,19 +160,23 @@ static bool read_checkpoint(const char *folder, long number, limphome_checkpoint
     }
     const message_verdict verdict = message_decode_checkpoint(bytes, (size_t)size, checkpoint);
     if (verdict != MESSAGE_GOOD) {
-        return fail_with(error, "%s: %s", name, message_verdict_text(verdict));
+        return fail_with(error, "%.200s: %s", name, message_verdict_text(verdict));
     }
-    return checkpoint->episode == number || fail_with(error, "%s: is of another episode", name);
+    if (checkpoint->settings_hash != settings_hash) {
+        return fail_with(error, "%.200s: was made with other settings or another robot; it cannot be gone on with",
+                         folder);
+    }
+    return checkpoint->episode == number || fail_with(error, "%.200s: is of another episode", name);
 }
 
-bool run_folder_resume(run_folder *folder, const char *path, limphome_checkpoint_t *checkpoint,
+bool run_folder_resume(run_folder *folder, const char *path, int64_t settings_hash, limphome_checkpoint_t *checkpoint,
                        char error[ERROR_LENGTH]) {
     memset(folder, 0, sizeof *folder);
     snprintf(folder->path, sizeof folder->path, "%s", path);
     char name[RUN_FOLDER_PATH_LENGTH];
     long number = -1;
     if (!join(name, path, "checkpoint", error) || (number = newest_checkpoint(name, error)) < 0 ||
-        !read_checkpoint(path, number, checkpoint, error) || !join(name, path, "episodes.csv", error) ||
+        !read_checkpoint(path, number, settings_hash, checkpoint, error) || !join(name, path, "episodes.csv", error) ||
         !cut_episodes(name, checkpoint->episode, error)) {
         return false;
     }
@@ -198,7 +215,7 @@ bool run_folder_policy(const run_folder *folder, const limphome_policy_t *policy
     }
     const int size = limphome_policy_t_encode(bytes, 0, sizeof bytes, policy);
     return join(path, folder->path, "policy.lcm", error) &&
-           (size > 0 || fail_with(error, "%s: does not fit %d bytes", path, LARGEST_FILE)) &&
+           (size > 0 || fail_with(error, "%.200s: does not fit %d bytes", path, LARGEST_FILE)) &&
            replace_file(path, bytes, (size_t)size, error);
 }
 
@@ -213,7 +230,7 @@ bool run_folder_checkpoint(const run_folder *folder, const limphome_checkpoint_t
     snprintf(base, sizeof base, "checkpoint/episode_%06d.lcm", checkpoint->episode);
     const int size = limphome_checkpoint_t_encode(bytes, 0, sizeof bytes, checkpoint);
     return join(path, folder->path, base, error) &&
-           (size > 0 || fail_with(error, "%s: does not fit %d bytes", path, LARGEST_FILE)) &&
+           (size > 0 || fail_with(error, "%.200s: does not fit %d bytes", path, LARGEST_FILE)) &&
            replace_file(path, bytes, (size_t)size, error);
 }
 
@@ -230,5 +247,5 @@ bool run_folder_read_policy(const char *path, limphome_policy_t *policy, char er
         return false;
     }
     const message_verdict verdict = message_decode_policy(bytes, (size_t)size, policy);
-    return verdict == MESSAGE_GOOD || fail_with(error, "%s: %s", path, message_verdict_text(verdict));
+    return verdict == MESSAGE_GOOD || fail_with(error, "%.200s: %s", path, message_verdict_text(verdict));
 }

@@ -24,8 +24,9 @@ typedef struct run_folder {
  * A folder that already holds an episodes.csv is refused. */
 bool run_folder_create(run_folder *folder, const char *path, char error[ERROR_LENGTH]);
 
-/* Goes on with an existing folder: finds the newest checkpoint and cuts episodes.csv back to its episodes. */
-bool run_folder_resume(run_folder *folder, const char *path, limphome_checkpoint_t *checkpoint,
+/* Goes on with an existing folder: finds the newest checkpoint, which must be of `settings_hash`, and cuts episodes.csv
+ * back to its episodes. */
+bool run_folder_resume(run_folder *folder, const char *path, int64_t settings_hash, limphome_checkpoint_t *checkpoint,
                        char error[ERROR_LENGTH]);
 
 /* Adds a row to episodes.csv and flushes it. */

@@ -1,5 +1,6 @@
 #include "urdf_elements.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -219,6 +220,10 @@ void urdf_read_elements(struct urdf_reading *r, FILE *file) {
     r->hash = 14695981039346656037u;
     for (bool last = false; !last && !r->failed;) {
         const size_t length = fread(buffer, 1, sizeof buffer, file);
+        if (ferror(file)) {
+            urdf_fail(r, "cannot be read: %s", strerror(errno));
+            return;
+        }
         last = length < sizeof buffer;
         for (size_t i = 0; i < length; i++) {
             r->hash = (r->hash ^ (unsigned char)buffer[i]) * 1099511628211u;
@@ -226,8 +231,5 @@ void urdf_read_elements(struct urdf_reading *r, FILE *file) {
         if (XML_Parse(r->parser, buffer, (int)length, last) == XML_STATUS_ERROR) {
             urdf_fail(r, "not XML: %s", XML_ErrorString(XML_GetErrorCode(r->parser)));
         }
-    }
-    if (ferror(file)) {
-        urdf_fail(r, "cannot be read");
     }
 }

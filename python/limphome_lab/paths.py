@@ -37,6 +37,8 @@ def program(name):
 
 
 def shown(path):
-    """`path` as a person would type it: relative where it lies below the working directory."""
-    path = Path(path).absolute()
-    return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else str(path)
+    """`path` as a person would type it: relative where it lies below the working directory, if that is still there."""
+    try:
+        return str(Path(path).absolute().relative_to(Path.cwd()))
+    except (FileNotFoundError, ValueError):
+        return str(path)

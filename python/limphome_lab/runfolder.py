@@ -140,7 +140,10 @@ def create(out, config, robot, assignments):
     folder = RunFolder(out)
     if folder.path.exists() and (not folder.path.is_dir() or any(folder.path.iterdir())):
         raise InputError(f"{out}: exists and is not an empty folder; give another, or go on with it by --resume")
-    folder.path.mkdir(parents=True, exist_ok=True)
-    folder.config.write_text(resolved)
-    shutil.copyfile(robot, folder.robot)
+    try:
+        folder.path.mkdir(parents=True, exist_ok=True)
+        folder.config.write_text(resolved)
+        shutil.copyfile(robot, folder.robot)
+    except OSError as error:
+        raise InputError(f"{out}: cannot be made a run folder: {error.strerror}") from error
     return folder

@@ -7,14 +7,14 @@ namespace limphome {
 namespace {
 
 // Crawlers come first among the actuators, then the arm joints.
-int actuator_index(int64_t failed, const RobotModel &model) {
+int actuator_index(const std::string &section, int64_t failed, const RobotModel &model) {
     if (failed < SETTINGS_FAILED_JOINT) {
         return static_cast<int>(failed);
     }
     const auto joint = static_cast<std::size_t>(failed - SETTINGS_FAILED_JOINT);
     if (model.crawlers.size() + joint >= model.actuators.size()) {
-        throw std::runtime_error("[failure] actuator = joint_" + std::to_string(joint + 1) + ": robot " + model.name +
-                                 " has " + std::to_string(model.actuators.size() - model.crawlers.size()) +
+        throw std::runtime_error("[" + section + "] actuator = joint_" + std::to_string(joint + 1) + ": robot " +
+                                 model.name + " has " + std::to_string(model.actuators.size() - model.crawlers.size()) +
                                  " arm joints");
     }
     return static_cast<int>(model.crawlers.size() + joint);
@@ -31,18 +31,20 @@ Failure planned(const settings_failure &f, int actuator) {
         case SETTINGS_WEAK:
             return {actuator, DriveCondition::weak, f.weak_factor, f.at_s};
     }
-    throw std::logic_error("[failure] mode = " + std::to_string(f.mode) + " is not known");
+    throw std::logic_error("mode " + std::to_string(f.mode) + " of failure is not known");
 }
 
 }  // namespace
 
 std::vector<Failure> planned_failures(const settings &configuration, const RobotModel &model) {
     std::vector<Failure> failures;
-    for (const settings_failure &f : {configuration.failure, configuration.second_failure}) {
+    const auto add = [&](const std::string &section, const settings_failure &f) {
         if (f.actuator != SETTINGS_FAILED_NONE) {
-            failures.push_back(planned(f, actuator_index(f.actuator, model)));
+            failures.push_back(planned(f, actuator_index(section, f.actuator, model)));
         }
-    }
+    };
+    add("failure", configuration.failure);
+    add("second_failure", configuration.second_failure);
     return failures;
 }
 

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -133,6 +134,9 @@ double Reader::positive(const TiXmlElement &element, const char *attribute) cons
 }
 
 void Reader::parse() {
+    if (std::filesystem::is_directory(path_)) {  // of which TinyXML would take the length
+        throw std::runtime_error(path_ + ": cannot be read: it is a folder");
+    }
     if (!document_.LoadFile(path_)) {
         if (document_.ErrorId() == TiXmlBase::TIXML_ERROR_OPENING_FILE) {
             throw std::runtime_error(path_ + ": cannot be opened");

@@ -26,14 +26,17 @@ Loop::Loop(Machine &machine, Link &link, const settings &s)
     }
 }
 
-// Nobody commands a machine any more whose loop has ended.
+// Nobody commands a machine any more whose loop has ended. What is told is what went wrong first.
 bool Loop::run(const volatile std::sig_atomic_t *stop) {
     try {
         const bool sound = follow(stop);
         machine_.command(at_rest);
         return sound;
     } catch (...) {
-        machine_.command(at_rest);
+        try {
+            machine_.command(at_rest);
+        } catch (...) {
+        }
         throw;
     }
 }
@@ -140,9 +143,11 @@ bool Loop::advance_real_time() {
     for (long done = 1; done <= slices; done++) {
         obey();
         machine_.advance(slice);
-        for (double ahead; (ahead = clock_ + static_cast<double>(done) * slice - monotonic_now()) > 0;) {
-            link_.wait(ahead);
-        }
+        double ahead;
+        do {  // a machine that does not keep up hears its controller all the same
+            ahead = clock_ + static_cast<double>(done) * slice - monotonic_now();
+            link_.wait(std::max(ahead, 0.0));
+        } while (ahead > 0);
         if (link_.reset_requested()) {
             return false;
         }

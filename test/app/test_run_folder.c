@@ -8,6 +8,8 @@
 #include "run_folder.h"
 #include "suite.h"
 
+enum { SETTINGS = 1234 }; /* hash of those that the runs were made with */
+
 static char folder_name[64];
 static char error[ERROR_LENGTH]; /* of the newest failure */
 
@@ -36,6 +38,7 @@ static limphome_episode_t episode(int32_t number) {
 static limphome_checkpoint_t checkpoint(int32_t after) {
     limphome_checkpoint_t c;
     memset(&c, 0, sizeof c);
+    c.settings_hash = SETTINGS;
     c.episode = c.policy.episode = after;
     c.policy.num_actuators = 5;
     c.policy.num_controlled = 4;
@@ -111,7 +114,7 @@ START_TEST(resume_takes_the_newest_checkpoint_and_cuts_the_rows) {
     run_folder folder;
     limphome_checkpoint_t c;
     const limphome_checkpoint_t expected = checkpoint(20);
-    ck_assert(run_folder_resume(&folder, folder_name, &c, error));
+    ck_assert(run_folder_resume(&folder, folder_name, SETTINGS, &c, error));
     expect_same(&c, &expected);
     const limphome_episode_t e = episode(21);
     ck_assert(run_folder_episode(&folder, &e, error));
@@ -127,12 +130,24 @@ START_TEST(resume_refuses_what_is_damaged) {
     char path[256];
     file_path(path, "checkpoint/episode_000020.lcm");
     ck_assert_int_eq(truncate(path, 100), 0);
-    ck_assert(!run_folder_resume(&folder, folder_name, &c, error));
+    ck_assert(!run_folder_resume(&folder, folder_name, SETTINGS, &c, error));
     ck_assert_int_eq(count_lines("episodes.csv"), 1 + 27); /* nothing is lost */
     unlink(path);
     file_path(path, "episodes.csv");
     ck_assert_int_eq(truncate(path, 200), 0);
-    ck_assert(!run_folder_resume(&folder, folder_name, &c, error));
+    ck_assert(!run_folder_resume(&folder, folder_name, SETTINGS, &c, error));
+    file_path(path, "episodes.csv.new");
+    ck_assert_int_ne(access(path, F_OK), 0); /* nothing is left of the attempt */
+}
+END_TEST
+
+START_TEST(resume_with_other_settings_is_refused_and_loses_nothing) {
+    write_run(27);
+    run_folder folder;
+    limphome_checkpoint_t c;
+    ck_assert(!run_folder_resume(&folder, folder_name, SETTINGS + 1, &c, error));
+    ck_assert_ptr_nonnull(strstr(error, "other settings"));
+    ck_assert_int_eq(count_lines("episodes.csv"), 1 + 27);
 }
 END_TEST
 
@@ -140,8 +155,8 @@ START_TEST(resume_without_checkpoint_is_refused) {
     write_run(5);
     run_folder folder;
     limphome_checkpoint_t c;
-    ck_assert(!run_folder_resume(&folder, folder_name, &c, error));
-    ck_assert(!run_folder_resume(&folder, "/nowhere", &c, error));
+    ck_assert(!run_folder_resume(&folder, folder_name, SETTINGS, &c, error));
+    ck_assert(!run_folder_resume(&folder, "/nowhere", SETTINGS, &c, error));
 }
 END_TEST
 
@@ -180,6 +195,16 @@ START_TEST(a_place_that_cannot_be_written_is_refused) {
 }
 END_TEST
 
+START_TEST(the_reason_is_told_however_long_the_path) {
+    run_folder folder;
+    char path[4 * RUN_FOLDER_PATH_LENGTH];
+    memset(path, 'x', sizeof path);
+    path[sizeof path - 1] = '\0';
+    ck_assert(!run_folder_create(&folder, path, error));
+    ck_assert_ptr_nonnull(strstr(error, "too long"));
+}
+END_TEST
+
 int main(void) {
     TCase *cases = tcase_create("run_folder");
     tcase_add_checked_fixture(cases, make_name, remove_folder);
@@ -187,9 +212,11 @@ int main(void) {
     tcase_add_test(cases, a_folder_with_a_run_is_refused);
     tcase_add_test(cases, resume_takes_the_newest_checkpoint_and_cuts_the_rows);
     tcase_add_test(cases, resume_refuses_what_is_damaged);
+    tcase_add_test(cases, resume_with_other_settings_is_refused_and_loses_nothing);
     tcase_add_test(cases, resume_without_checkpoint_is_refused);
     tcase_add_test(cases, a_policy_reads_back);
     tcase_add_test(cases, no_folder_writes_nothing);
     tcase_add_test(cases, a_place_that_cannot_be_written_is_refused);
+    tcase_add_test(cases, the_reason_is_told_however_long_the_path);
     return run_suite("run_folder", cases);
 }

@@ -84,6 +84,13 @@ def test_folder_that_is_not_empty(tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == ["thesis.txt"]
 
 
+def test_folder_that_cannot_be_made(tmp_path):
+    file = tmp_path / "file"
+    file.write_text("not a folder")
+    result = run_script("train", "--config", SMOKE, "--out", file / "run", check=False)
+    assert_refused(result, file / "run", [str(file / "run"), "Not a directory"])
+
+
 def test_resume_of_what_is_not_a_run(tmp_path):
     result = run_script("train", "--resume", tmp_path, check=False)
     assert result.returncode == 2 and "not a run folder" in result.stderr
@@ -135,6 +142,16 @@ def test_programs_tell_of_a_missing_robot(tmp_path, program):
 @pytest.mark.parametrize(
     "program", [paths.program("simulator"), paths.program("controller")], ids=["simulator", "controller"]
 )
+def test_programs_refuse_a_folder_for_a_robot(tmp_path, program):
+    command = [program, "--robot", tmp_path, "--lcm-url", "memq://"]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=30)
+    assert result.returncode == 2
+    assert str(tmp_path) in result.stderr and "cannot be read: " in result.stderr
+
+
+@pytest.mark.parametrize(
+    "program", [paths.program("simulator"), paths.program("controller")], ids=["simulator", "controller"]
+)
 @by_name(BAD_FILES)
 def test_programs_refuse_a_bad_configuration(tmp_path, program, given, words):
     file = tmp_path / "bad.ini"
@@ -142,3 +159,18 @@ def test_programs_refuse_a_bad_configuration(tmp_path, program, given, words):
     result = subprocess.run([program, "--config", file], capture_output=True, text=True, timeout=30)
     assert result.returncode == 2
     assert all(word in result.stderr for word in words), result.stderr
+
+
+@pytest.mark.parametrize(
+    "program", [paths.program("simulator"), paths.program("controller")], ids=["simulator", "controller"]
+)
+@pytest.mark.parametrize("option", ["--print-settings", "--help-settings", "--help", "--version"])
+def test_what_cannot_be_printed_is_told(program, option):
+    with open("/dev/full", "w") as full:
+        result = subprocess.run([program, option], stdout=full, stderr=subprocess.PIPE, text=True, timeout=30)
+    assert result.returncode == 2 and "No space left" in result.stderr
+
+
+def test_no_folder_is_made_where_the_bus_cannot_be_joined(tmp_path):
+    command = [paths.program("controller"), "--config", SMOKE, "--out", tmp_path / "run", "--lcm-url", "nowhere://"]
+    assert_refused(subprocess.run(command, capture_output=True, text=True), tmp_path / "run", ["cannot join the bus"])

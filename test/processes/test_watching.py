@@ -35,6 +35,16 @@ def test_evaluation_needs_a_policy(tmp_path):
     assert result.returncode == 2 and "not a run folder" in result.stderr
 
 
+def test_evaluation_with_another_robots_policy_is_refused(smoke_run, tmp_path):
+    copy = tmp_path / "run"
+    shutil.copytree(smoke_run.path, copy)
+    config = copy / "config.ini"
+    config.write_text(config.read_text().replace("joint_speed = 0.3", "joint_speed = 0.2"))
+    result = run_script("evaluate", copy, "--episodes", 1, check=False)
+    assert result.returncode == 1
+    assert "what was learned is for other actuators, speeds" in result.stderr
+
+
 @pytest.fixture
 def launched(smoke_run, tmp_path, monkeypatch):
     """scripts/launch, in real time, with its registry to itself."""

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <string>
 
 #include "laboratory.h"
 
@@ -90,6 +91,18 @@ TEST(Failure, ComesAtItsTime) {
 TEST(Failure, OfAJointThatTheRobotLacksIsRefused) {
     EXPECT_NO_THROW(World(paper_robot(), with_failure(joint(3), SETTINGS_LOCKED)));
     EXPECT_THROW(World(paper_robot(), with_failure(joint(4), SETTINGS_LOCKED)), std::runtime_error);
+}
+
+TEST(Failure, RefusalNamesTheKey) {
+    settings s = left_locked();
+    s.second_failure.actuator = joint(4);
+    try {
+        planned_failures(s, paper_robot());
+        FAIL() << "was accepted";
+    } catch (const std::runtime_error &error) {
+        EXPECT_NE(std::string(error.what()).find("[second_failure] actuator = joint_"), std::string::npos)
+            << error.what();
+    }
 }
 
 }  // namespace

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <functional>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "limphome_channels.h"
@@ -275,6 +277,29 @@ TEST(Loop, InRealTimeASilentControllerLetsTheMachineComeToRest) {
     EXPECT_TRUE(plant.controller.truths.empty());
 }
 
+TEST(Loop, InRealTimeAMachineThatDoesNotKeepUpObeysAllTheSame) {
+    class Slow : public Toy {
+       public:
+        explicit Slow(volatile std::sig_atomic_t *stop) : stop_(stop) {}
+        void advance(double seconds) override {
+            std::this_thread::sleep_for(std::chrono::duration<double>(2 * seconds));
+            *stop_ = ++slices_ == 10 ? 1 : 0;
+        }
+
+       private:
+        volatile std::sig_atomic_t *stop_;
+        int slices_ = 0;
+    };
+    volatile std::sig_atomic_t over = 0;
+    Slow toy(&over);
+    settings s = real_time();
+    s.link.command_timeout_s = 10;
+    Plant plant(toy, s);
+    plant.controller.answer = [&plant](const robot_state_t &state) { plant.controller.command(state, {0.3}); };
+    EXPECT_TRUE(plant.loop.run(&over));
+    EXPECT_NE(std::find(toy.commands.begin(), toy.commands.end(), Rates{0.3}), toy.commands.end());
+}
+
 TEST(Loop, MachineIsAtRestWhateverEndsTheLoop) {
     class Broken : public SimulatedToy {
        public:
@@ -287,6 +312,34 @@ TEST(Loop, MachineIsAtRestWhateverEndsTheLoop) {
     ASSERT_GE(toy.commands.size(), 3U);
     EXPECT_EQ(toy.commands[toy.commands.size() - 2], Rates{0.3});
     EXPECT_EQ(toy.commands.back(), rest);
+}
+
+TEST(Loop, TellsWhatWentWrongFirst) {
+    class Unplugged : public SimulatedToy {
+       public:
+        void advance(double) override {
+            unplugged_ = true;
+            throw std::runtime_error("the cable is out");
+        }
+        void command(const double velocity[max_actuators]) override {
+            if (unplugged_) {
+                throw std::runtime_error("no answer");
+            }
+            SimulatedToy::command(velocity);
+        }
+
+       private:
+        bool unplugged_ = false;
+    };
+    Unplugged toy;
+    Plant plant(toy, lockstep());
+    plant.controller.answer = [&plant](const robot_state_t &state) { plant.controller.command(state, {0.3}); };
+    try {
+        plant.run();
+        FAIL() << "nothing was told";
+    } catch (const std::runtime_error &error) {
+        EXPECT_STREQ(error.what(), "the cable is out");
+    }
 }
 
 }  // namespace
