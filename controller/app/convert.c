@@ -226,22 +226,6 @@ static bool read_network(const limphome_policy_t *policy, lh_network *network) {
     return true;
 }
 
-limphome_policy_t convert_policy(const lh_controller *c, int32_t episode, int64_t utime) {
-    limphome_policy_t policy;
-    memset(&policy, 0, sizeof policy);
-    policy.utime = utime;
-    policy.episode = episode;
-    fill_purpose(&c->task, &policy);
-    lh_learned learned;
-    lh_learner_save(&c->learner, &learned);
-    switch (learned.kind) {
-        case LH_Q_LEARNING:
-            fill_network(&learned.as.q_learning.network, &policy);
-            break;
-    }
-    return policy;
-}
-
 bool convert_from_policy(const limphome_policy_t *policy, const lh_controller *c, lh_learned *learned) {
     lh_learner_save(&c->learner, learned);
     if (!has_purpose(policy, &c->task)) {
@@ -279,13 +263,15 @@ limphome_checkpoint_t convert_checkpoint(const lh_controller *c, int32_t episode
     limphome_checkpoint_t checkpoint;
     memset(&checkpoint, 0, sizeof checkpoint);
     checkpoint.settings_hash = settings_hash;
-    checkpoint.episode = episode;
-    checkpoint.policy = convert_policy(c, episode, utime);
+    checkpoint.episode = checkpoint.policy.episode = episode;
+    checkpoint.policy.utime = utime;
+    fill_purpose(&c->task, &checkpoint.policy);
     lh_learned learned;
     lh_learner_save(&c->learner, &learned);
     switch (learned.kind) {
         case LH_Q_LEARNING:
             checkpoint.learner = LIMPHOME_CHECKPOINT_T_Q_LEARNING;
+            fill_network(&learned.as.q_learning.network, &checkpoint.policy);
             checkpoint.q_learning = save_q_learning(&learned.as.q_learning);
             break;
     }

@@ -31,10 +31,7 @@ limphome_episode_t convert_episode(const lh_controller *controller, const lh_sum
 /* Fills in how often each limit of the controller acted. */
 void convert_limits(const lh_controller *controller, limphome_status_t *status);
 
-/* What was learned and what is needed to use it, after `episode` finished episodes. */
-limphome_policy_t convert_policy(const lh_controller *controller, int32_t episode, int64_t utime);
-
-/* The same and what is needed to go on learning. */
+/* What was learned after `episode` finished episodes, what is needed to use it (.policy) and to go on learning. */
 limphome_checkpoint_t convert_checkpoint(const lh_controller *controller, int32_t episode, int64_t utime,
                                          int64_t settings_hash);
 

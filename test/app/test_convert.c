@@ -60,7 +60,7 @@ END_TEST
 
 START_TEST(a_policy_gives_back_the_network) {
     make_controller();
-    const limphome_policy_t policy = convert_policy(&controller, 7, 0);
+    const limphome_policy_t policy = convert_checkpoint(&controller, 7, 0, 99).policy;
     ck_assert_int_eq(policy.episode, 7);
     ck_assert_int_eq(policy.num_inputs, 10);
     ck_assert_int_eq(policy.controlled[0], 1);
@@ -105,13 +105,13 @@ END_TEST
 START_TEST(a_policy_of_another_robot_is_refused) {
     make_controller();
     lh_learned learned;
-    limphome_policy_t policy = convert_policy(&controller, 7, 0);
+    limphome_policy_t policy = convert_checkpoint(&controller, 7, 0, 99).policy;
     policy.controlled[0] = 0;
     ck_assert(!convert_from_policy(&policy, &controller, &learned));
-    policy = convert_policy(&controller, 7, 0);
+    policy = convert_checkpoint(&controller, 7, 0, 99).policy;
     policy.speed[1] = 0.2F;
     ck_assert(!convert_from_policy(&policy, &controller, &learned));
-    policy = convert_policy(&controller, 7, 0);
+    policy = convert_checkpoint(&controller, 7, 0, 99).policy;
     policy.input_high[3] = 1;
     ck_assert(!convert_from_policy(&policy, &controller, &learned));
 }

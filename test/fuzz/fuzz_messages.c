@@ -73,7 +73,6 @@ static void decode_checkpoint(const uint8_t *bytes, size_t size) {
 /* A message that is accepted. */
 static size_t good_message(enum kind kind, uint8_t bytes[LARGEST]) {
     const limphome_robot_state_t state = {.num_actuators = 5, .orientation = {1}};
-    const limphome_policy_t policy = convert_policy(&controller, 7, 0);
     const limphome_checkpoint_t checkpoint = convert_checkpoint(&controller, 7, 0, 99);
     int size = 0;
     switch (kind) {
@@ -81,7 +80,7 @@ static size_t good_message(enum kind kind, uint8_t bytes[LARGEST]) {
             size = limphome_robot_state_t_encode(bytes, 0, LARGEST, &state);
             break;
         case POLICY:
-            size = limphome_policy_t_encode(bytes, 0, LARGEST, &policy);
+            size = limphome_policy_t_encode(bytes, 0, LARGEST, &checkpoint.policy);
             break;
         default:
             size = limphome_checkpoint_t_encode(bytes, 0, LARGEST, &checkpoint);
