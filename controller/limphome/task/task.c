@@ -153,6 +153,7 @@ static void describe(const lh_task *task, const situation *now, lh_observed *obs
     observed->stability_margin = now->margin;
     observed->goal_distance = lh_episode_distance(episode, &task->config.episode, &now->pose);
     observed->lateral_error = lh_episode_lateral(episode, &now->pose);
+    observed->heading_error = lh_wrap_angle(now->pose.heading - episode->start.heading);
 }
 
 static int32_t number_after(const lh_episode *episode) {
@@ -166,6 +167,8 @@ lh_error lh_task_observe(lh_task *task, const lh_state *state, lh_observed *obse
     }
     *observed = (lh_observed){.num_inputs = task->controlled.count + 2};
     lh_quat attitude = lh_quat_normalise(state->orientation);
+    observed->attitude = attitude;
+    memcpy(observed->joint_angle, state->actuator_position, sizeof observed->joint_angle);
     situation now = assess(task, state, attitude);
     task->clamped.inputs +=
         (uint64_t)lh_observation(&task->robot, &task->controlled, state, attitude, observed->inputs);

@@ -46,14 +46,17 @@ typedef struct lh_observed {
     bool reset;         /* the robot must be put into its initial pose: no action follows from here */
 
     /* this state */
-    int32_t episode;                   /* running episode, from 1; with `reset`, the one that has just ended */
-    int32_t step;                      /* decisions before this one in the running episode */
-    lh_pose2 pose;                     /* of the body, seen from above */
-    float stability_margin;            /* S_NE of (11) [m] */
-    float goal_distance;               /* to the goal line of the running episode [m] */
-    float lateral_error;               /* from the straight line of the running episode, positive to the left [m] */
-    int32_t num_inputs;                /* controlled actuators + 2 */
-    float inputs[LH_MAX_STATE_INPUTS]; /* states of the controlled actuators, roll, pitch, in [0, 1]: observation.h */
+    int32_t episode;                     /* running episode, from 1; with `reset`, the one that has just ended */
+    int32_t step;                        /* decisions before this one in the running episode */
+    lh_pose2 pose;                       /* of the body, seen from above */
+    lh_quat attitude;                    /* of the body, body to world, unit length */
+    float joint_angle[LH_MAX_ACTUATORS]; /* as in lh_state [rad] */
+    float stability_margin;              /* S_NE of (11) [m] */
+    float goal_distance;                 /* to the goal line of the running episode [m] */
+    float lateral_error;                 /* from the straight line of the running episode, positive to the left [m] */
+    float heading_error;                 /* from the direction of that line, positive to the left, (-pi, pi] [rad] */
+    int32_t num_inputs;                  /* controlled actuators + 2 */
+    float inputs[LH_MAX_STATE_INPUTS];   /* states of the controlled actuators, roll, pitch, in [0, 1]: observation.h */
 } lh_observed;
 
 /* How often a limit acted. */
