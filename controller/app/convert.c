@@ -169,6 +169,8 @@ void convert_limits(const lh_controller *c, limphome_status_t *status) {
             status->clamped_centres = (int64_t)learner->held.centres;
             break;
         }
+        case LH_PLANNER:
+            break;
     }
     status->clamped = status->clamped_inputs + status->clamped_temperatures + status->clamped_margins +
                       status->clamped_weights + status->clamped_widths + status->clamped_centres;
@@ -234,6 +236,8 @@ bool convert_from_policy(const limphome_policy_t *policy, const lh_controller *c
     switch (learned->kind) {
         case LH_Q_LEARNING:
             return read_network(policy, &learned->as.q_learning.network);
+        case LH_PLANNER:
+            break;
     }
     return false;
 }
@@ -273,6 +277,8 @@ limphome_checkpoint_t convert_checkpoint(const lh_controller *c, int32_t episode
             checkpoint.learner = LIMPHOME_CHECKPOINT_T_Q_LEARNING;
             fill_network(&learned.as.q_learning.network, &checkpoint.policy);
             checkpoint.q_learning = save_q_learning(&learned.as.q_learning);
+            break;
+        case LH_PLANNER:
             break;
     }
     return checkpoint;

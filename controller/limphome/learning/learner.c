@@ -10,6 +10,7 @@ lh_learner_config lh_learner_config_default(void) {
         .learn = true,
         .greedy = false,
         .q_learning = lh_q_learning_config_default(),
+        .planner = lh_planner_config_default(),
     };
 }
 
@@ -17,6 +18,8 @@ lh_error lh_learner_config_validate(const lh_learner_config *config) {
     switch (config->kind) {
         case LH_Q_LEARNING:
             return lh_q_learning_config_validate(&config->q_learning);
+        case LH_PLANNER:
+            return lh_planner_config_validate(&config->planner);
     }
     return LH_ERROR_LEARNER;
 }
@@ -35,6 +38,9 @@ lh_error lh_learner_init(lh_learner *learner, const lh_learner_config *config, c
         case LH_Q_LEARNING:
             error = init_q_learning(learner, config, task);
             break;
+        case LH_PLANNER:
+            error = lh_planner_init(&learner->as.planner, &config->planner, task, config->seed);
+            break;
     }
     if (error == LH_OK) {
         memset(learner, 0, offsetof(lh_learner, as)); /* what lies between the fields, too */
@@ -50,6 +56,9 @@ void lh_learner_begin(lh_learner *learner) {
         case LH_Q_LEARNING:
             lh_q_learning_begin(&learner->as.q_learning);
             break;
+        case LH_PLANNER:
+            lh_planner_begin(&learner->as.planner);
+            break;
     }
 }
 
@@ -58,6 +67,9 @@ void lh_learner_step(lh_learner *learner, const lh_observed *observed, lh_choice
         case LH_Q_LEARNING:
             lh_q_learning_step(&learner->as.q_learning, observed, learner->learn, learner->greedy, choice);
             break;
+        case LH_PLANNER:
+            lh_planner_step(&learner->as.planner, observed, learner->learn, learner->greedy, choice);
+            break;
     }
 }
 
@@ -65,6 +77,8 @@ float lh_learner_temperature(const lh_learner *learner, int32_t episode) {
     switch (learner->kind) {
         case LH_Q_LEARNING:
             return lh_q_learning_temperature(&learner->as.q_learning, episode);
+        case LH_PLANNER:
+            return 0.0f;
     }
     return 0.0f;
 }
@@ -74,6 +88,8 @@ void lh_learner_save(const lh_learner *learner, lh_learned *learned) {
     switch (learner->kind) {
         case LH_Q_LEARNING:
             lh_q_learning_save(&learner->as.q_learning, &learned->as.q_learning);
+            break;
+        case LH_PLANNER:
             break;
     }
 }
@@ -85,6 +101,8 @@ lh_error lh_learner_restore(lh_learner *learner, const lh_learned *learned) {
     switch (learner->kind) {
         case LH_Q_LEARNING:
             return lh_q_learning_restore(&learner->as.q_learning, &learned->as.q_learning);
+        case LH_PLANNER:
+            break;
     }
     return LH_ERROR_LEARNER;
 }

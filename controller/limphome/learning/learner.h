@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "limphome/learning/choice.h"
+#include "limphome/learning/planner.h"
 #include "limphome/learning/q_learning.h"
 #include "limphome/task/task.h"
 
@@ -18,6 +19,7 @@ extern "C" {
 
 typedef enum lh_learner_kind {
     LH_Q_LEARNING = 0, /* the paper's */
+    LH_PLANNER = 1,    /* plans on a motion model that it measures */
 } lh_learner_kind;
 
 typedef struct lh_learner_config {
@@ -26,6 +28,7 @@ typedef struct lh_learner_config {
     bool learn;    /* false: what was learned stays as it is */
     bool greedy;   /* true: always a best action, without exploration */
     lh_q_learning_config q_learning;
+    lh_planner_config planner;
 } lh_learner_config;
 
 typedef struct lh_learner {
@@ -34,6 +37,7 @@ typedef struct lh_learner {
     bool greedy; /* likewise */
     union {
         lh_q_learning q_learning;
+        lh_planner planner;
     } as; /* by kind */
 } lh_learner;
 

@@ -1,0 +1,171 @@
+#include "limphome/body/quasi_static.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+#include "limphome/base/elementary.h"
+#include "limphome/body/kinematics.h"
+
+/* Friction that grows with the slip at first lets Newton's method find the way; then it is made steeper and steeper. */
+#define ITERATIONS 5
+#define SOFTNESS 2.0f    /* slip at which friction bends at first, in longest travels */
+#define HARDENING 0.4f   /* of that, from one iteration to the next */
+#define SMALL_TURN 0.02f /* of a joint, to see how far the tip goes [rad] */
+#define SMALL 1e-6f      /* keeps the equations solvable where all supports lie in a point or a line */
+
+/* Shares of the weight that hold the centre of mass, the least ones by their squares: a plane over the supports. */
+static void share_load(lh_footing *footing, lh_vec3 centre) {
+    float each = 1.0f / (float)footing->count;
+    float middle_x = 0.0f;
+    float middle_y = 0.0f;
+    for (int32_t i = 0; i < footing->count; i++) {
+        middle_x += each * footing->x[i];
+        middle_y += each * footing->y[i];
+    }
+    float xx = SMALL;
+    float xy = 0.0f;
+    float yy = SMALL;
+    for (int32_t i = 0; i < footing->count; i++) {
+        float dx = footing->x[i] - middle_x;
+        float dy = footing->y[i] - middle_y;
+        xx += dx * dx;
+        xy += dx * dy;
+        yy += dy * dy;
+    }
+    float determinant = xx * yy - xy * xy;
+    float slope_x = ((centre.x - middle_x) * yy - (centre.y - middle_y) * xy) / determinant;
+    float slope_y = ((centre.y - middle_y) * xx - (centre.x - middle_x) * xy) / determinant;
+    float sum = SMALL;
+    for (int32_t i = 0; i < footing->count; i++) {
+        float load = each + slope_x * (footing->x[i] - middle_x) + slope_y * (footing->y[i] - middle_y);
+        footing->load[i] = load > 0.0f ? load : 0.0f;
+        sum += footing->load[i];
+    }
+    for (int32_t i = 0; i < footing->count; i++) {
+        footing->load[i] /= sum;
+    }
+}
+
+/* How the joint moves the supports that hang on it, by kinematics a small turn away. */
+static void find_shift_by_joint(const lh_robot *robot, lh_quat attitude, const float *joint_angle, const lh_rest *rest,
+                                int32_t joint, float travel, lh_footing *footing) {
+    float angle[LH_MAX_ACTUATORS];
+    memcpy(angle, joint_angle, sizeof(float) * (size_t)robot->num_actuators);
+    angle[joint] += SMALL_TURN;
+    lh_posture posture;
+    lh_kinematics_posture(robot, attitude, angle, 1.0f, &posture);
+    for (int32_t i = 0; i < footing->count; i++) {
+        lh_vec3 point = posture.supports[rest->carrying[i]];
+        footing->shift_x[joint][i] = (point.x - footing->x[i]) * (travel / SMALL_TURN);
+        footing->shift_y[joint][i] = (point.y - footing->y[i]) * (travel / SMALL_TURN);
+    }
+}
+
+/* The belt runs backwards below while it drives forward. */
+static void find_shift_by_crawler(const lh_robot *robot, const lh_rest *rest, int32_t crawler, float travel,
+                                  lh_footing *footing) {
+    for (int32_t i = 0; i < footing->count; i++) {
+        bool is_left = footing->y[i] > 0.0f;
+        bool is_its = robot->supports[rest->carrying[i]].link == 0 && is_left == (crawler == 0);
+        footing->shift_x[crawler][i] = is_its ? -travel : 0.0f;
+    }
+}
+
+void lh_footing_find(const lh_robot *robot, const float *joint_angle, const lh_rest *rest, lh_vec3 up,
+                     const float *travel, float friction, lh_footing *footing) {
+    memset(footing, 0, sizeof *footing);
+    footing->count = rest->num_carrying;
+    lh_quat attitude = lh_rest_upright(rest->normal);
+    lh_posture posture;
+    lh_kinematics_posture(robot, attitude, joint_angle, 1.0f, &posture);
+    for (int32_t i = 0; i < footing->count; i++) {
+        lh_vec3 point = posture.supports[rest->carrying[i]];
+        footing->x[i] = point.x;
+        footing->y[i] = point.y;
+    }
+    if (footing->count > 0) {
+        share_load(footing, posture.centre_of_mass);
+    }
+    for (int32_t k = 0; k < robot->num_actuators; k++) {
+        if (robot->actuators[k].kind == LH_CRAWLER) {
+            find_shift_by_crawler(robot, rest, k, travel[k], footing);
+        } else if (rest->braced) {
+            find_shift_by_joint(robot, attitude, joint_angle, rest, k, travel[k], footing);
+        }
+        footing->travel = travel[k] > footing->travel ? travel[k] : footing->travel;
+    }
+    footing->pull_x = -up.x / (up.z * friction);
+    footing->pull_y = -up.y / (up.z * friction);
+}
+
+/* One step of Newton's method towards the least sum of load * sqrt(|slip|^2 + softness^2). */
+static void improve(const lh_footing *footing, const float *shift_x, const float *shift_y, float softness,
+                    lh_twist *twist) {
+    /* gradient, and the upper half of the symmetric Hessian, in the order forward, sideways, turn */
+    float g0 = -footing->pull_x;
+    float g1 = -footing->pull_y;
+    float g2 = 0.0f;
+    float h00 = SMALL;
+    float h01 = 0.0f;
+    float h02 = 0.0f;
+    float h11 = SMALL;
+    float h12 = 0.0f;
+    float h22 = SMALL;
+    for (int32_t i = 0; i < footing->count; i++) {
+        float x = footing->x[i];
+        float y = footing->y[i];
+        float slip_x = twist->forward - twist->turn * y + shift_x[i];
+        float slip_y = twist->sideways + twist->turn * x + shift_y[i];
+        float square = slip_x * slip_x + slip_y * slip_y + softness * softness;
+        float weight = footing->load[i] / lh_sqrt(square);
+        float force_x = weight * slip_x;
+        float force_y = weight * slip_y;
+        float bend = weight / square;
+        float xx = weight - bend * slip_x * slip_x;
+        float xy = -bend * slip_x * slip_y;
+        float yy = weight - bend * slip_y * slip_y;
+        g0 += force_x;
+        g1 += force_y;
+        g2 += x * force_y - y * force_x;
+        h00 += xx;
+        h01 += xy;
+        h11 += yy;
+        h02 += x * xy - y * xx;
+        h12 += x * yy - y * xy;
+        h22 += x * (x * yy - y * xy) - y * (x * xy - y * xx);
+    }
+    /* by elimination; the Hessian is positive definite */
+    float l1 = h01 / h00;
+    float l2 = h02 / h00;
+    float d1 = h11 - l1 * h01;
+    float d12 = h12 - l1 * h02;
+    float l12 = d12 / d1;
+    float d2 = h22 - l2 * h02 - l12 * d12;
+    float r1 = g1 - l1 * g0;
+    float turn = (g2 - l2 * g0 - l12 * r1) / d2;
+    float sideways = (r1 - d12 * turn) / d1;
+    float forward = (g0 - h01 * sideways - h02 * turn) / h00;
+    float reach = lh_sqrt(forward * forward + sideways * sideways + turn * turn);
+    float scale = reach > footing->travel ? footing->travel / reach : 1.0f;
+    twist->forward -= scale * forward;
+    twist->sideways -= scale * sideways;
+    twist->turn -= scale * turn;
+}
+
+lh_twist lh_quasi_static_motion(const lh_footing *footing, int32_t num_actuators, const float *share) {
+    float shift_x[LH_MAX_SUPPORTS] = {0.0f};
+    float shift_y[LH_MAX_SUPPORTS] = {0.0f};
+    for (int32_t k = 0; k < num_actuators; k++) {
+        for (int32_t i = 0; share[k] != 0.0f && i < footing->count; i++) {
+            shift_x[i] += share[k] * footing->shift_x[k][i];
+            shift_y[i] += share[k] * footing->shift_y[k][i];
+        }
+    }
+    lh_twist twist = {0.0f, 0.0f, 0.0f};
+    float softness = SOFTNESS * footing->travel;
+    for (int32_t i = 0; footing->count > 0 && i < ITERATIONS; i++) {
+        improve(footing, shift_x, shift_y, softness, &twist);
+        softness *= HARDENING;
+    }
+    return twist;
+}

@@ -1,0 +1,93 @@
+#include "limphome/body/rest.h"
+
+#include <float.h>
+#include <stdint.h>
+
+#include "limphome/body/kinematics.h"
+#include "limphome/body/stability.h"
+
+#define LEAST_LEVEL 0.3f       /* of a plane to rest on: z of its normal in the body frame */
+#define LEAST_SQUARE 1e-12f    /* of the cross product of two sides of a triangle [m^4]; below, they are in a line */
+#define BELOW_GROUND (-0.005f) /* a support this deep is taken to lie on the ground [m] */
+
+/* A plane on which the robot may rest, in the body frame. */
+typedef struct plane {
+    lh_vec3 point;
+    lh_vec3 normal; /* unit length, upward */
+} plane;
+
+lh_quat lh_rest_upright(lh_vec3 from) {
+    return lh_quat_normalise((lh_quat){1.0f + from.z, from.y, -from.x, 0.0f});
+}
+
+static float height(const plane *ground, lh_vec3 point) {
+    return lh_vec3_dot(ground->normal, lh_vec3_sub(point, ground->point));
+}
+
+/* The plane through three supports; false if it is none, is steep, or another support is below it. */
+static bool find_plane(const lh_robot *robot, const lh_posture *posture, const int32_t corner[3], plane *ground) {
+    lh_vec3 a = posture->supports[corner[0]];
+    lh_vec3 normal =
+        lh_vec3_cross(lh_vec3_sub(posture->supports[corner[1]], a), lh_vec3_sub(posture->supports[corner[2]], a));
+    float length = lh_vec3_norm(normal);
+    if (length * length < LEAST_SQUARE) {
+        return false;
+    }
+    ground->point = a;
+    ground->normal = lh_vec3_scale(normal, (normal.z < 0.0f ? -1.0f : 1.0f) / length);
+    if (ground->normal.z < LEAST_LEVEL) {
+        return false;
+    }
+    for (int32_t i = 0; i < robot->num_supports; i++) {
+        if (height(ground, posture->supports[i]) < BELOW_GROUND) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Stands on `ground`: the margin, and whether something carries that is not part of the base. */
+static lh_rest stand(const lh_robot *robot, const lh_posture *posture, const plane *ground, lh_vec3 up,
+                     float tolerance) {
+    lh_rest rest = {.braced = false, .normal = ground->normal};
+    lh_quat turn = lh_quat_multiply(lh_rest_upright(up), lh_rest_upright(ground->normal));
+    lh_vec3 carrying[LH_MAX_SUPPORTS];
+    int32_t count = 0;
+    for (int32_t i = 0; i < robot->num_supports; i++) {
+        if (height(ground, posture->supports[i]) <= tolerance) {
+            rest.carrying[count] = i;
+            carrying[count++] = lh_quat_rotate(turn, posture->supports[i]);
+            rest.braced = rest.braced || robot->supports[i].link != 0;
+        }
+    }
+    rest.num_carrying = count;
+    rest.margin = lh_stability_margin(carrying, count, lh_quat_rotate(turn, posture->centre_of_mass));
+    return rest;
+}
+
+void lh_rest_find(const lh_robot *robot, const float *joint_angle, lh_vec3 up, float tolerance, lh_rest *rest) {
+    lh_posture posture;
+    lh_kinematics_posture(robot, (lh_quat){1.0f, 0.0f, 0.0f, 0.0f}, joint_angle, tolerance, &posture);
+    *rest = (lh_rest){.margin = LH_NO_REST_MARGIN, .normal = {0.0f, 0.0f, 1.0f}};
+    float lowest = FLT_MAX;
+    for (int32_t i = 0; i < robot->num_supports; i++) {
+        for (int32_t j = i + 1; j < robot->num_supports; j++) {
+            for (int32_t k = j + 1; k < robot->num_supports; k++) {
+                const int32_t corner[3] = {i, j, k};
+                plane ground;
+                if (!find_plane(robot, &posture, corner, &ground)) {
+                    continue;
+                }
+                float centre_height = height(&ground, posture.centre_of_mass);
+                if (centre_height >= lowest) {
+                    continue;
+                }
+                lh_rest candidate = stand(robot, &posture, &ground, up, tolerance);
+                if (candidate.margin >= 0.0f) {
+                    *rest = candidate;
+                    lowest = centre_height;
+                }
+            }
+        }
+    }
+}
