@@ -179,8 +179,8 @@ def experiment(name, runs):
     parts = [
         f"### {name}",
         summary(runs),
-        f"The last {' or '.join(map(str, counts))} of {span([len(run.episodes) for run in runs], str)} episodes of each "
-        "run; duration, lateral error and change of heading (their magnitudes) and reward are medians.",
+        f"The last {' or '.join(map(str, counts))} of {span([len(run.episodes) for run in runs], str)} episodes of "
+        "each run; duration, lateral error and change of heading (their magnitudes) and reward are medians.",
         markdown_table(COLUMNS, map(row, runs)),
         draw_seeds(name, runs),
     ]
