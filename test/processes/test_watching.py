@@ -10,7 +10,7 @@ import subprocess
 import pytest
 
 from conftest import ROOT, TIME_LIMIT_S, run_script, start_script, wait_until
-from limphome import policy_t
+from limphome import checkpoint_t, policy_t
 from limphome_lab import registry
 from limphome_lab.channels import DECISION, STATE
 from limphome_lab.ending import Ending
@@ -45,6 +45,37 @@ def test_evaluation_goes_on_where_the_training_ended(smoke_run, selection):
         assert any(decision.q < decision.q_max for decision in decisions)
     first = [decision.temperature for decision in decisions if decision.episode == 31]
     assert first == pytest.approx([1 / math.log(31.1)] * len(first), rel=1e-6)
+
+
+def test_evaluation_of_the_mean_of_the_last_checkpoints(smoke_run):
+    run_script("evaluate", smoke_run.path, "--episodes", 1, "--average", 2, "--set", "episode.step_limit=20")
+    used = policy_t.decode((smoke_run.path / "evaluation" / "policy.lcm").read_bytes())
+    older, newer = (
+        checkpoint_t.decode((smoke_run.checkpoints / f"episode_{episode:06}.lcm").read_bytes()).policy
+        for episode in (20, 30)
+    )
+    assert used.episode == 30 and used.speed == newer.speed
+    assert used.weight == pytest.approx([(a + b) / 2 for a, b in zip(older.weight, newer.weight, strict=True)])
+    assert used.width == pytest.approx([(a + b) / 2 for a, b in zip(older.width, newer.width, strict=True)])
+    assert used.centre[0] == pytest.approx([(a + b) / 2 for a, b in zip(older.centre[0], newer.centre[0], strict=True)])
+    assert older.weight != newer.weight
+    chosen = decisions_of_evaluation(smoke_run)[0]
+    assert chosen.q == pytest.approx(value(used, chosen.inputs[: used.num_inputs]), rel=1e-4)
+
+
+def value(policy, x):
+    """Q by (13)(14)."""
+    return sum(
+        weight * math.exp(-sum((a - b) ** 2 for a, b in zip(x, centre, strict=False)) / width**2)
+        for weight, width, centre in zip(policy.weight, policy.width, policy.centre, strict=True)
+        if width > 0
+    )
+
+
+def test_evaluation_of_the_mean_of_more_checkpoints_than_there_are_is_refused(smoke_run):
+    for count in (0, 4):
+        result = run_script("evaluate", smoke_run.path, "--average", count, check=False)
+        assert result.returncode == 2 and f"--average {count}: must be from 1" in result.stderr
 
 
 def test_evaluation_under_other_settings(smoke_run):
