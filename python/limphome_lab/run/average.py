@@ -1,7 +1,7 @@
 """The mean of what a run of Q-learning knew at its last checkpoints.
 
-A greedy policy goes by differences of Q that are no larger than what a few episodes change. The networks of a run have a
-common origin, unit by unit, so their parameters have a mean, in which these changes even out (Polyak averaging).
+A greedy policy goes by differences of Q that are no larger than what a few episodes change. The networks of a run have
+one origin, unit by unit, so that their parameters have a mean; in it these changes even out (Polyak averaging).
 """
 
 from copy import copy
