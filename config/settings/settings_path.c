@@ -16,7 +16,7 @@ static const char blanks[] = " \t";
 void settings_path_range(char *text, size_t size) {
     snprintf(
         text, size,
-        "rolling, ahead, to X Y[, X Y ...] (up to %d waypoints, coordinates from %.10g to %.10g) or waypoints FILE",
+        "rolling, ahead, to X Y[, X Y ...] (up to %d waypoints, coordinates from %.10g to %.10g [m]) or waypoints FILE",
         (int)MOST_WAYPOINTS, -farthest, farthest);
 }
 

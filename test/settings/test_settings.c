@@ -279,7 +279,7 @@ START_TEST(check_wants_every_value_in_its_range) {
     s.task.path.kind = SETTINGS_WAYPOINTS;
     check_out_of_range(&s,
                        "[task] path = ?: not allowed; path is rolling, ahead, to X Y[, X Y ...] (up to 8 waypoints, "
-                       "coordinates from -1000 to 1000) or waypoints FILE");
+                       "coordinates from -1000 to 1000 [m]) or waypoints FILE");
 }
 END_TEST
 
