@@ -34,6 +34,7 @@ extern "C" {
 #define WHOLE(section, name, ...) int64_t name;
 #define CHOICE(section, name, words, ...) int64_t name; /* an enumerator of settings_WORDS */
 #define SENSOR_REAL(quantity, name, ...) double name;
+#define PATH(section, name, ...) settings_path name;
 
 /* One actuator that fails: actuator, mode, weak_factor, slip_factor, at_s. */
 typedef struct settings_failure {
@@ -44,6 +45,15 @@ typedef struct settings_failure {
 typedef struct settings_sensor {
     SETTINGS_SENSOR_KEYS(, , "")
 } settings_sensor;
+
+/* A path: its kind and, of SETTINGS_WAYPOINTS, its waypoints in the world frame [m]; what is not used is 0. */
+enum { SETTINGS_MAX_WAYPOINTS = 8 };
+enum settings_path_kind { SETTINGS_ROLLING, SETTINGS_AHEAD, SETTINGS_WAYPOINTS };
+typedef struct settings_path {
+    int64_t kind;
+    int64_t count;
+    double x[SETTINGS_MAX_WAYPOINTS], y[SETTINGS_MAX_WAYPOINTS];
+} settings_path;
 
 /* A struct for each section of keys.def, in it a field for each key: s.learning.seed is [learning] seed. The sections
  * failure and second_failure are settings_failure; sensors holds the settings_sensor attitude, position, joint and

@@ -36,6 +36,15 @@ static bool set_key(settings *s, const char *place, const char *section, const c
         list_known(section, allowed, sizeof allowed);
         return fail_with(error, "%s: [%.40s] %.40s: unknown key; %s", place, section, name, allowed);
     }
+    char waypoints[SETTINGS_PATH_LENGTH];
+    const char *file = key->kind == SETTINGS_KIND_PATH ? settings_path_file(value) : NULL;
+    if (file != NULL) {
+        char why[ERROR_LENGTH] = "";
+        if (!settings_path_read(file, waypoints, why)) {
+            return fail_with(error, "%s: [%s] %s: %.300s", place, section, name, why);
+        }
+        value = waypoints;
+    }
     if (!settings_key_parse(key, s, value)) {
         settings_key_range(key, allowed);
         return fail_with(error, "%s: [%s] %s = %.60s: not allowed; %s is %s", place, section, name, value, name,

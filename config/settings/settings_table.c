@@ -32,6 +32,9 @@ const settings_key settings_keys[SETTINGS_KEY_COUNT] = {
 #define SENSOR_REAL(quantity, name, low, high, standard, hash, meaning)                          \
     NUMBER(SETTINGS_KIND_REAL, "sensors", #quantity "_" #name, sensors.quantity.name, low, high, \
            standard, hash, meaning)
+#define PATH(section, name, hash, meaning)                                                                             \
+    {#section, #name, SETTINGS_KIND_PATH, offsetof(settings, section.name), SETTINGS_ROLLING, SETTINGS_WAYPOINTS, \
+     SETTINGS_ROLLING, NULL, hash, meaning},
 #include "keys.def"
 };
 /* clang-format on */
@@ -44,7 +47,11 @@ static int64_t *whole_field(settings *s, const settings_key *key) {
     return (int64_t *)(void *)((char *)s + key->offset);
 }
 
-/* Sets the field of `key` to a value of its kind. */
+static settings_path *path_field(settings *s, const settings_key *key) {
+    return (settings_path *)(void *)((char *)s + key->offset);
+}
+
+/* Sets the field of `key` to a value of its kind; of a PATH, which begins with it, the kind of path. */
 static void assign(const settings_key *key, settings *s, double value) {
     if (key->kind == SETTINGS_KIND_REAL) {
         *real_field(s, key) = value;
@@ -96,6 +103,10 @@ static bool is_within(const settings_key *key, double value) {
 }
 
 bool settings_key_in_range(const settings_key *key, const settings *s) {
+    if (key->kind == SETTINGS_KIND_PATH) {
+        settings copy = *s;
+        return settings_path_is_valid(path_field(&copy, key));
+    }
     return is_within(key, settings_key_number(key, s));
 }
 
@@ -121,6 +132,9 @@ static bool parse_number(const settings_key *key, const char *text, double *valu
 }
 
 bool settings_key_parse(const settings_key *key, settings *s, const char *text) {
+    if (key->kind == SETTINGS_KIND_PATH) {
+        return settings_path_parse(path_field(s, key), text);
+    }
     double value;
     const bool read =
         key->kind == SETTINGS_KIND_CHOICE ? parse_word(key, text, &value) : parse_number(key, text, &value);
@@ -151,10 +165,19 @@ void settings_key_value(const settings_key *key, const settings *s, char text[SE
         case SETTINGS_KIND_CHOICE:
             snprintf(text, SETTINGS_VALUE_LENGTH, "%s", is_within(key, value) ? key->words[(size_t)value] : "?");
             break;
+        case SETTINGS_KIND_PATH: {
+            settings copy = *s;
+            settings_path_print(path_field(&copy, key), text, SETTINGS_VALUE_LENGTH);
+            break;
+        }
     }
 }
 
 void settings_key_range(const settings_key *key, char text[SETTINGS_RANGE_LENGTH]) {
+    if (key->kind == SETTINGS_KIND_PATH) {
+        settings_path_range(text, SETTINGS_RANGE_LENGTH);
+        return;
+    }
     if (key->kind != SETTINGS_KIND_CHOICE) {
         snprintf(text, SETTINGS_RANGE_LENGTH, "%s from %.10g to %.10g",
                  key->kind == SETTINGS_KIND_WHOLE ? "a whole number" : "a number", meant(key, key->low),

@@ -4,6 +4,25 @@
 
 #include "limphome/task/action.h"
 
+static lh_path_kind convert_path_kind(int64_t kind) {
+    switch (kind) {
+        case SETTINGS_AHEAD:
+            return LH_PATH_AHEAD;
+        case SETTINGS_WAYPOINTS:
+            return LH_PATH_WAYPOINTS;
+        default:
+            return LH_PATH_ROLLING;
+    }
+}
+
+static lh_path_config convert_path(const settings_path *path) {
+    lh_path_config config = {.kind = convert_path_kind(path->kind), .num_waypoints = (int32_t)path->count};
+    for (int i = 0; i < LH_MAX_WAYPOINTS && i < SETTINGS_MAX_WAYPOINTS; i++) {
+        config.waypoint[i] = (lh_point2){(float)path->x[i], (float)path->y[i]};
+    }
+    return config;
+}
+
 static lh_task_config convert_task(const settings *s) {
     return (lh_task_config){
         .crawler_speed = (float)s->action.crawler_speed,
@@ -26,6 +45,7 @@ static lh_task_config convert_task(const settings *s) {
                 .tumble_tilt = (float)s->episode.tumble_tilt_rad,
                 .reset_every = (int32_t)s->episode.reset_every,
             },
+        .path = convert_path(&s->task.path),
     };
 }
 
@@ -111,6 +131,8 @@ limphome_decision_t convert_decision(const lh_controller *c, const lh_decision *
         .stability_margin = seen->stability_margin,
         .goal_distance = seen->goal_distance,
         .lateral_error = seen->lateral_error,
+        .heading_error = seen->heading_error,
+        .waypoint_distance = seen->waypoint_distance,
     };
     memcpy(message.inputs, seen->inputs, sizeof seen->inputs);
     if (!seen->reset) {
@@ -153,7 +175,11 @@ limphome_episode_t convert_episode(const lh_controller *c, const lh_summary *s, 
         .temperature = (double)lh_learner_temperature(&c->learner, s->number),
         .start = {(double)s->start.x, (double)s->start.y},
         .start_heading = (double)s->start.heading,
+        .line_heading = (double)s->line_heading,
+        .start_lateral_error = (double)s->start_lateral_error,
         .goal_distance = (double)s->goal_distance,
+        .waypoint_distance = (double)s->waypoint_distance,
+        .arrived = s->arrived,
     };
 }
 

@@ -20,6 +20,7 @@
 #include "limphome/task/action.h"
 #include "limphome/task/episode.h"
 #include "limphome/task/observation.h"
+#include "limphome/task/path.h"
 #include "limphome/task/reward.h"
 #include "limphome/task/task.h"
 

@@ -69,6 +69,21 @@ def episode_states(path, wanted):
     return {number: (episode, _states_of(episode, states)) for number, (episode, states) in found.items()}
 
 
+def last_session(path):
+    """([episode_t], [robot_state_t]) of the last session in which an episode ended, in order."""
+    episodes, states = {}, {}
+    for channel, data in read_log(path):
+        if channel == STATE:
+            state = robot_state_t.decode(data)
+            states.setdefault(state.session, {}).setdefault(state.seq, state)
+        elif channel == EPISODE:
+            episode = episode_t.decode(data)
+            episodes.setdefault(episode.session, []).append(episode)
+            states = {episode.session: states[episode.session]}  # the sessions before are not wanted any more
+    last = list(episodes)[-1]
+    return episodes[last], [state for _, state in sorted(states[last].items())]
+
+
 def _states_of(episode, encoded):
     states = {}
     for data in encoded:

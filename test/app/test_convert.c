@@ -36,6 +36,7 @@ START_TEST(default_settings_are_the_librarys_defaults) {
     SAME(task.episode.step_limit);
     SAME(task.episode.tumble_tilt);
     SAME(task.episode.reset_every);
+    SAME(task.path.kind);
     SAME(learner.kind);
     SAME(learner.seed);
     SAME(learner.learn);
@@ -55,6 +56,22 @@ START_TEST(default_settings_are_the_librarys_defaults) {
     SAME(learner.q_learning.network.exact_gradient);
 #undef SAME
     ck_assert_int_eq(lh_config_validate(&config), LH_OK);
+}
+END_TEST
+
+START_TEST(a_path_is_the_same_in_the_library) {
+    settings s = settings_default();
+    char error[ERROR_LENGTH] = "";
+    ck_assert(settings_set(&s, "task.path=ahead", error));
+    ck_assert_int_eq(convert_config(&s).task.path.kind, LH_PATH_AHEAD);
+    ck_assert(settings_set(&s, "task.path=to 0.5 5, -3 4", error));
+    const lh_path_config path = convert_config(&s).task.path;
+    ck_assert_int_eq(path.kind, LH_PATH_WAYPOINTS);
+    ck_assert_int_eq(path.num_waypoints, 2);
+    ck_assert_float_eq(path.waypoint[0].x, 0.5F);
+    ck_assert_float_eq(path.waypoint[0].y, 5);
+    ck_assert_float_eq(path.waypoint[1].x, -3);
+    ck_assert_float_eq(path.waypoint[1].y, 4);
 }
 END_TEST
 
@@ -156,6 +173,28 @@ START_TEST(a_decision_tells_the_inputs_of_state_and_action) {
 }
 END_TEST
 
+START_TEST(an_episode_tells_its_line) {
+    make_controller();
+    const limphome_robot_state_t state = {.num_actuators = 5, .orientation = {1}};
+    const lh_summary summary = {.outcome = LH_OUTCOME_GOAL,
+                                .start = {1, 2, 3},
+                                .line_heading = 4,
+                                .start_lateral_error = 5,
+                                .goal_distance = 6,
+                                .waypoint_distance = 7,
+                                .arrived = true};
+    const limphome_episode_t message = convert_episode(&controller, &summary, &state, 0.5);
+    ck_assert_int_eq(message.outcome, LIMPHOME_EPISODE_T_GOAL);
+    ck_assert_double_eq(message.start[1], 2);
+    ck_assert_double_eq(message.start_heading, 3);
+    ck_assert_double_eq(message.line_heading, 4);
+    ck_assert_double_eq(message.start_lateral_error, 5);
+    ck_assert_double_eq(message.goal_distance, 6);
+    ck_assert_double_eq(message.waypoint_distance, 7);
+    ck_assert_int_eq(message.arrived, 1);
+}
+END_TEST
+
 START_TEST(what_has_failed_is_not_controlled) {
     limphome_robot_state_t message;
     memset(&message, 0, sizeof message);
@@ -192,12 +231,14 @@ END_TEST
 int main(void) {
     TCase *cases = tcase_create("convert");
     tcase_add_test(cases, default_settings_are_the_librarys_defaults);
+    tcase_add_test(cases, a_path_is_the_same_in_the_library);
     tcase_add_test(cases, a_policy_gives_back_the_network);
     tcase_add_test(cases, a_checkpoint_gives_back_all_that_was_learned);
     tcase_add_test(cases, a_checkpoint_of_another_learner_is_refused);
     tcase_add_test(cases, a_policy_of_another_robot_is_refused);
     tcase_add_test(cases, each_limit_is_told);
     tcase_add_test(cases, a_decision_tells_the_inputs_of_state_and_action);
+    tcase_add_test(cases, an_episode_tells_its_line);
     tcase_add_test(cases, what_has_failed_is_not_controlled);
     tcase_add_test(cases, state_keeps_position_attitude_angles_and_torque);
     return run_suite("convert", cases);

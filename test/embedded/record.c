@@ -70,6 +70,7 @@ static recorded_decision published(const limphome_decision_t *d) {
         .stability_margin = d->stability_margin,
         .goal_distance = d->goal_distance,
         .lateral_error = d->lateral_error,
+        .heading_error = d->heading_error,
     };
     memcpy(r.inputs, d->inputs, sizeof r.inputs);
     return r;

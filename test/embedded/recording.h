@@ -26,7 +26,7 @@ typedef struct recorded_decision {
     float inputs[LH_MAX_INPUTS];
     float q, q_max, probability, temperature;
     float td_error, reward_motion, reward_goal, reward_stability, reward_tumble;
-    float stability_margin, goal_distance, lateral_error;
+    float stability_margin, goal_distance, lateral_error, heading_error;
 } recorded_decision;
 
 /* Opens the recording and sets up the controller that it is of. The file, or negative after saying what is wrong. */

@@ -25,6 +25,7 @@ static recorded_decision record(const lh_decision *d, int32_t num_controlled) {
         .stability_margin = d->observed.stability_margin,
         .goal_distance = d->observed.goal_distance,
         .lateral_error = d->observed.lateral_error,
+        .heading_error = d->observed.heading_error,
     };
     memcpy(r.inputs, d->observed.inputs, sizeof d->observed.inputs);
     if (!d->observed.reset) {

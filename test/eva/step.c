@@ -27,6 +27,12 @@ int main(void) {
     config.learner.greedy = Frama_C_interval(0, 1);
     config.task.reward.heading_error = Frama_C_interval(0, 1);
     config.learner.q_learning.network.exact_gradient = Frama_C_interval(0, 1);
+    config.task.path.kind = Frama_C_interval(LH_PATH_ROLLING, LH_PATH_WAYPOINTS);
+    config.task.path.num_waypoints = Frama_C_interval(1, LH_MAX_WAYPOINTS);
+    for (int i = 0; i < LH_MAX_WAYPOINTS; i++) {
+        config.task.path.waypoint[i].x = Frama_C_float_interval(-LH_WAYPOINT_MAX, LH_WAYPOINT_MAX);
+        config.task.path.waypoint[i].y = Frama_C_float_interval(-LH_WAYPOINT_MAX, LH_WAYPOINT_MAX);
+    }
     const lh_robot robot = crawler_robot();
     const lh_controlled controlled = crawler_controlled();
     if (lh_controller_init(&controller, &config, &robot, &controlled) != LH_OK) {

@@ -2,6 +2,16 @@
 #include "crawler.h"
 #include "sound.h"
 
+/* A path of any waypoints within 32 m. */
+static lh_path_config varied_path(fuzz_input *in) {
+    lh_path_config path = {.kind = (lh_path_kind)(fuzz_byte(in) % 3), .num_waypoints = 1 + fuzz_byte(in) % 3};
+    for (int32_t i = 0; i < path.num_waypoints; i++) {
+        path.waypoint[i].x = ((float)fuzz_byte(in) - 128.0f) / 4.0f;
+        path.waypoint[i].y = ((float)fuzz_byte(in) - 128.0f) / 4.0f;
+    }
+    return path;
+}
+
 static lh_config varied(uint8_t choices) {
     lh_config config = lh_config_default();
     config.learner.learn = (choices & 1) == 0;
@@ -18,7 +28,8 @@ static lh_config varied(uint8_t choices) {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static lh_controller controller;
     fuzz_input in = {data, size};
-    const lh_config config = varied(fuzz_byte(&in));
+    lh_config config = varied(fuzz_byte(&in));
+    config.task.path = varied_path(&in);
     const lh_robot robot = crawler_robot();
     const lh_controlled controlled = crawler_controlled();
     FUZZ_EXPECT(lh_controller_init(&controller, &config, &robot, &controlled) == LH_OK);

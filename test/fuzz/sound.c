@@ -30,9 +30,17 @@ static void expect_sound_learner(const lh_learner *learner, int32_t episode) {
 }
 
 static void expect_sound_summary(const lh_controller *controller, const lh_summary *summary) {
-    const float values[] = {summary->lateral_error, summary->heading_change, summary->start.x,
-                            summary->start.y,       summary->start.heading,  summary->goal_distance};
-    FUZZ_EXPECT(finite(values, 6) && finite_reward(&summary->total));
+    const float values[] = {summary->lateral_error,
+                            summary->heading_change,
+                            summary->start.x,
+                            summary->start.y,
+                            summary->start.heading,
+                            summary->line_heading,
+                            summary->start_lateral_error,
+                            summary->goal_distance,
+                            summary->waypoint_distance};
+    FUZZ_EXPECT(finite(values, 9) && finite_reward(&summary->total));
+    FUZZ_EXPECT(!summary->arrived || summary->outcome == LH_OUTCOME_GOAL);
     FUZZ_EXPECT(summary->steps >= 1 && summary->steps <= controller->task.config.episode.step_limit);
     FUZZ_EXPECT(summary->outcome > LH_OUTCOME_NONE && summary->outcome <= LH_OUTCOME_TIMEOUT);
     expect_sound_learner(&controller->learner, summary->number);
@@ -54,6 +62,8 @@ static void expect_sound(const lh_controller *controller, const lh_decision *dec
     FUZZ_EXPECT(finite_reward(&decision->observed.reward) && lh_finite(decision->choice.td_error));
     FUZZ_EXPECT(lh_finite(decision->observed.stability_margin) && lh_finite(decision->observed.goal_distance));
     FUZZ_EXPECT(lh_finite(decision->observed.lateral_error));
+    FUZZ_EXPECT(lh_within(decision->observed.heading_error, -LH_PI, LH_PI));
+    FUZZ_EXPECT(lh_finite(decision->observed.waypoint_distance));
     for (int32_t i = 0; i < decision->observed.num_inputs; i++) {
         FUZZ_EXPECT(lh_within(decision->observed.inputs[i], 0.0f, 1.0f));
     }

@@ -2,7 +2,7 @@
 # are billions of double-precision operations, without an FPU for them on the boards; comparing bits says more there.
 set(limphome_test_modules
   base/error base/random base/vector body/kinematics body/robot body/stability task/action task/episode
-  task/observation task/reward task/task learning/boltzmann learning/learner learning/network
+  task/observation task/path task/reward task/task learning/boltzmann learning/learner learning/network
   learning/q_learning controller limits runs)
 
 # Adds the program test_TOPIC of a module, whose tests lie in `folder`, with further sources; names the topic in `result`.

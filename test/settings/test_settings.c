@@ -141,6 +141,20 @@ static const struct {
     {"; one\n[learning] seed = 7\n", {":2:", "[section] must stand on a line of its own"}},
     {"\xEF\xBB\xBF[learning]seed = 7\n", {":1:", "[section] must stand on a line of its own"}},
     {"[learning]\rseed = 7\r\repisodes = 0\r", {":4:", "episodes = 0"}},
+    {"[task]\npath = straight\n",
+     {":2:", "[task] path = straight", "path is rolling, ahead, to X Y", "waypoints FILE"}},
+    {"[task]\npath = ahead 3\n", {":2:", "path = ahead 3"}},
+    {"[task]\npath = to\n", {":2:", "path = to"}},
+    {"[task]\npath = to 3\n", {":2:", "path = to 3"}},
+    {"[task]\npath = to 3-4\n", {":2:", "path = to 3-4"}},
+    {"[task]\npath = to 3 -4 5\n", {":2:", "path = to 3 -4 5"}},
+    {"[task]\npath = to 3 -4,\n", {":2:", "path = to 3 -4,"}},
+    {"[task]\npath = to 3 1000.1\n", {":2:", "path = to 3 1000.1", "from -1000 to 1000"}},
+    {"[task]\npath = to nan 1\n", {":2:", "path = to nan 1"}},
+    {"[task]\npath = to 1 1,2 2,3 3,4 4,5 5,6 6,7 7,8 8,9 9\n", {":2:", "up to 8 waypoints"}},
+    {"[task]\npath = waypoints\n", {":2:", "path = waypoints"}},
+    {"\n[task]\npath = waypoints /nowhere/way.txt\n", {":3:", "[task] path", "/nowhere/way.txt: cannot be opened"}},
+    {"[task]\npath = waypoints /\n", {":2:", "/: cannot be read"}},
 };
 
 START_TEST(refuses_with_place_and_range) {
@@ -261,6 +275,11 @@ START_TEST(check_wants_every_value_in_its_range) {
     s = settings_default();
     s.reward.goal = NAN;
     check_out_of_range(&s, "[reward] goal = nan: not allowed; goal is a number from 0 to 1000");
+    s = settings_default();
+    s.task.path.kind = SETTINGS_WAYPOINTS;
+    check_out_of_range(&s,
+                       "[task] path = ?: not allowed; path is rolling, ahead, to X Y[, X Y ...] (up to 8 waypoints, "
+                       "coordinates from -1000 to 1000 [m]) or waypoints FILE");
 }
 END_TEST
 
@@ -280,6 +299,94 @@ START_TEST(what_is_written_reads_back_the_same) {
 }
 END_TEST
 
+/* A path as text, and as it is printed. */
+static const struct {
+    const char *text, *printed;
+} paths[] = {
+    {"rolling", "rolling"},
+    {"ahead", "ahead"},
+    {"to 3 -4", "to 3 -4"},
+    {"to  0.5\t5 ,5 5e0", "to 0.5 5, 5 5"},
+    {"to -0.0001 1.23456", "to 0 1.235"},
+    /* the longest there is */
+    {"to -999.999 -999.999,-999.999 -999.999,-999.999 -999.999,-999.999 -999.999,-999.999 -999.999,-999.999 -999.999,"
+     "-999.999 -999.999,-999.999 -999.999",
+     "to -999.999 -999.999, -999.999 -999.999, -999.999 -999.999, -999.999 -999.999, -999.999 -999.999, "
+     "-999.999 -999.999, -999.999 -999.999, -999.999 -999.999"},
+};
+
+START_TEST(a_path_is_printed_as_it_is_read) {
+    char assignment[256];
+    char error[ERROR_LENGTH] = "";
+    settings s = settings_default();
+    snprintf(assignment, sizeof assignment, "task.path=%s", paths[_i].text);
+    ck_assert_msg(settings_set(&s, assignment, error), "%s", error);
+    ck_assert_msg(settings_check(&s, error), "%s", error);
+    char text[8192] = "";
+    char expected[256];
+    FILE *out = fmemopen(text, sizeof text, "w");
+    settings_write(&s, out);
+    fclose(out);
+    snprintf(expected, sizeof expected, "\npath = %s\n", paths[_i].printed);
+    ck_assert_ptr_nonnull(strstr(text, expected));
+    settings read;
+    ck_assert_msg(read_text(&read, text, error), "%s", error);
+    ck_assert_mem_eq(&read, &s, sizeof s);
+}
+END_TEST
+
+/* Takes a file of waypoints with this text as the path. */
+static bool set_waypoints(settings *s, const char *text, char error[ERROR_LENGTH]) {
+    char name[sizeof path];
+    memcpy(name, path, sizeof path);
+    const int file = mkstemp(name);
+    ck_assert_int_ge(file, 0);
+    ck_assert_int_eq(write(file, text, strlen(text)), (ssize_t)strlen(text));
+    close(file);
+    char assignment[256];
+    snprintf(assignment, sizeof assignment, "task.path=waypoints %s", name);
+    const bool result = settings_set(s, assignment, error);
+    unlink(name);
+    return result;
+}
+
+START_TEST(waypoints_are_read_from_a_file) {
+    settings from_file = settings_default();
+    settings given = from_file;
+    char error[ERROR_LENGTH] = "";
+    ck_assert_msg(set_waypoints(&from_file, "; an L\n0 5 # ahead\r\n\n  5\t5", error), "%s", error);
+    ck_assert(settings_set(&given, "task.path=to 0 5, 5 5", error));
+    ck_assert_mem_eq(&from_file, &given, sizeof given);
+}
+END_TEST
+
+static const struct {
+    const char *text;
+    const char *words[4]; /* ends with NULL */
+} bad_waypoints[] = {
+    {"0 5\n5\n", {":2: 5: not allowed", "X Y, two numbers from -1000 to 1000 [m]"}},
+    {"0 5 3\n", {":1: 0 5 3: not allowed"}},
+    {"# none\n", {"holds no waypoint"}},
+    {"", {"holds no waypoint"}},
+    {"1 1\n2 2\n3 3\n4 4\n5 5\n6 6\n7 7\n8 8\n\n9 9\n", {":10: too many; at most 8 waypoints"}},
+    {"\n0                                                                                                   "
+     "                                                                   5\n",
+     {":2: line too long"}},
+};
+
+START_TEST(bad_waypoints_are_refused_with_their_place) {
+    settings s = settings_default();
+    const settings standard = s;
+    char error[ERROR_LENGTH] = "";
+    ck_assert(!set_waypoints(&s, bad_waypoints[_i].text, error));
+    ck_assert_mem_eq(&s, &standard, sizeof s);
+    ck_assert_ptr_eq(strstr(error, "--set task.path=waypoints /tmp/limphome_settings_"), error);
+    for (const char *const *word = bad_waypoints[_i].words; *word != NULL; word++) {
+        ck_assert_msg(strstr(error, *word) != NULL, "error \"%s\" lacks \"%s\"", error, *word);
+    }
+}
+END_TEST
+
 START_TEST(hash_tells_what_decides) {
     const settings s = settings_default();
     settings other = s;
@@ -291,6 +398,9 @@ START_TEST(hash_tells_what_decides) {
     ck_assert_uint_ne(settings_hash(&s), settings_hash(&other));
     other = s;
     other.failure.mode = SETTINGS_FREE;
+    ck_assert_uint_ne(settings_hash(&s), settings_hash(&other));
+    other = s;
+    other.task.path.kind = SETTINGS_AHEAD;
     ck_assert_uint_ne(settings_hash(&s), settings_hash(&other));
 }
 END_TEST
@@ -342,6 +452,9 @@ int main(void) {
     tcase_add_loop_test(all, check_accepts_what_goes_together, 0, COUNT(agreements));
     tcase_add_test(all, check_wants_every_value_in_its_range);
     tcase_add_test(all, what_is_written_reads_back_the_same);
+    tcase_add_loop_test(all, a_path_is_printed_as_it_is_read, 0, COUNT(paths));
+    tcase_add_test(all, waypoints_are_read_from_a_file);
+    tcase_add_loop_test(all, bad_waypoints_are_refused_with_their_place, 0, COUNT(bad_waypoints));
     tcase_add_test(all, hash_tells_what_decides);
     tcase_add_test(all, hash_is_that_of_earlier_checkpoints);
     tcase_add_test(all, command_line_takes_the_file_first_then_assignments);

@@ -26,6 +26,11 @@ static bool take(const settings_key *key, settings *s, double number) {
         return settings_key_parse(key, s, key->words[(size_t)number]);
     }
     snprintf(text, sizeof text, "%.17g", number);
+    if (key->kind == SETTINGS_KIND_PATH) { /* the number is an enumerator; all waypoints at an end of the range */
+        static const char *const values[] = {"rolling", "ahead",
+                                             "to 1000 -1000, 1000 1000, -1000 0, 0 0, 0 0, 1 1, 2 2, 3 3"};
+        return settings_key_parse(key, s, values[(size_t)number]);
+    }
     return settings_key_parse(key, s, text);
 }
 
@@ -85,7 +90,7 @@ END_TEST
 START_TEST(ranges_end_where_they_say) {
     for (size_t i = 0; i < SETTINGS_KEY_COUNT; i++) {
         const settings_key *key = &settings_keys[i];
-        if (key->kind == SETTINGS_KIND_CHOICE) {
+        if (key->kind == SETTINGS_KIND_CHOICE || key->kind == SETTINGS_KIND_PATH) {
             continue;
         }
         char text[SETTINGS_RANGE_LENGTH];

@@ -2,12 +2,13 @@
  * Define any of them on the command line to make the library smaller or larger; all sources and callers must agree.
  *
  * At most so many bytes, with S = LH_UNIT_SLOTS, U = LH_MAX_UNITS, C = LH_COLUMN_SLOTS, A = LH_MAX_ACTUATORS, 3 or
- * more, L = LH_MAX_LINKS and P = LH_MAX_SUPPORTS:
+ * more, L = LH_MAX_LINKS and P = LH_MAX_SUPPORTS,
+ * W = LH_MAX_WAYPOINTS:
  *
  *     lh_network         8 + 4 S (2 A + 4)
  *     lh_action_scratch  4 S (3 A + 6) + 4 U C
  *     lh_learner         lh_network + lh_action_scratch + 4 LH_MAX_ACTIONS + 4 A + 144
- *     lh_task            20 A + 64 L + 20 P + 144
+ *     lh_task            20 A + 64 L + 20 P + 8 W + 192
  *     lh_controller      lh_learner + lh_task
  *
  * and on the stack, where lh_controller_step takes the most, about 1300 + 4 S (A - 2).
@@ -27,6 +28,9 @@
 #endif
 #ifndef LH_MAX_SUPPORTS
 #define LH_MAX_SUPPORTS 12 /* points on which the robot can stand */
+#endif
+#ifndef LH_MAX_WAYPOINTS
+#define LH_MAX_WAYPOINTS 8 /* of a path */
 #endif
 #ifndef LH_MAX_ACTIONS
 #define LH_MAX_ACTIONS 6561 /* joint actions, LH_ACTION_LEVELS ^ LH_MAX_ACTUATORS */

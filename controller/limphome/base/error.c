@@ -18,6 +18,8 @@ const char *lh_error_text(lh_error error) {
             return "A reward coefficient is out of range";
         case LH_ERROR_EPISODE:
             return "An episode number or an episode setting is out of range";
+        case LH_ERROR_PATH:
+            return "The kind of path is unknown, or its waypoints are too many or out of range";
         case LH_ERROR_SPEED:
             return "A speed of the action levels is out of range";
         case LH_ERROR_ACTUATORS:

@@ -19,19 +19,16 @@ lh_error lh_episode_config_validate(const lh_episode_config *config) {
     return good ? LH_OK : LH_ERROR_EPISODE;
 }
 
-void lh_episode_begin(lh_episode *episode, int32_t number, const lh_pose2 *start) {
-    *episode = (lh_episode){.number = number, .start = *start};
+void lh_episode_begin(lh_episode *episode, int32_t number, const lh_pose2 *start, const lh_pose2 *line, float goal) {
+    *episode = (lh_episode){.number = number, .start = *start, .line = *line, .goal = goal};
 }
 
-float lh_episode_distance(const lh_episode *episode, const lh_episode_config *config, const lh_pose2 *pose) {
-    const lh_pose2 *start = &episode->start;
-    float along = lh_cos(start->heading) * (pose->x - start->x) + lh_sin(start->heading) * (pose->y - start->y);
-    return config->goal_distance - along;
+float lh_episode_distance(const lh_episode *episode, const lh_pose2 *pose) {
+    return episode->goal - lh_line_along(&episode->line, pose);
 }
 
 float lh_episode_lateral(const lh_episode *episode, const lh_pose2 *pose) {
-    const lh_pose2 *start = &episode->start;
-    return lh_cos(start->heading) * (pose->y - start->y) - lh_sin(start->heading) * (pose->x - start->x);
+    return lh_line_lateral(&episode->line, pose);
 }
 
 lh_outcome lh_episode_outcome(const lh_episode *episode, const lh_episode_config *config, const lh_pose2 *pose,
@@ -39,7 +36,7 @@ lh_outcome lh_episode_outcome(const lh_episode *episode, const lh_episode_config
     if (tilt > config->tumble_tilt) {
         return LH_OUTCOME_TUMBLE;
     }
-    if (lh_episode_distance(episode, config, pose) <= 0.0f) {
+    if (lh_episode_distance(episode, pose) <= 0.0f) {
         return LH_OUTCOME_GOAL;
     }
     return episode->steps >= config->step_limit ? LH_OUTCOME_TIMEOUT : LH_OUTCOME_NONE;

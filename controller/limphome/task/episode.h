@@ -1,11 +1,11 @@
-/* The episode: from a start pose to the goal line at distance b ahead of it, across the heading at the start.
- * It ends on reaching the line, on tumbling, or when the time is up. */
+/* The episode: along a straight line to the goal line, which lies across it, at distance b from the start or at the end
+ * of a path's leg (path.h). It ends on reaching the goal line, on tumbling, or when the time is up. */
 #ifndef LIMPHOME_EPISODE_H
 #define LIMPHOME_EPISODE_H
 
 #include <stdint.h>
 
-#include "limphome/task/reward.h"
+#include "limphome/task/path.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -36,22 +36,24 @@ typedef struct lh_episode_config {
 } lh_episode_config;
 
 typedef struct lh_episode {
-    int32_t number; /* t of (4), 1 to LH_LAST_EPISODE */
-    int32_t steps;  /* decisions completed */
-    lh_pose2 start;
+    int32_t number;  /* t of (4), 1 to LH_LAST_EPISODE */
+    int32_t steps;   /* decisions completed */
+    lh_pose2 start;  /* of the robot */
+    lh_pose2 line;   /* a point of the straight line, and its direction */
+    float goal;      /* where along it, from that point, the goal line lies [m] */
     lh_reward total; /* sums over the steps */
 } lh_episode;
 
 lh_episode_config lh_episode_config_default(void);
 lh_error lh_episode_config_validate(const lh_episode_config *config);
 
-/* Begins episode `number` at `start`. */
-void lh_episode_begin(lh_episode *episode, int32_t number, const lh_pose2 *start);
+/* Begins episode `number` at `start`, along `line` to the goal line `goal` [m] from its point. */
+void lh_episode_begin(lh_episode *episode, int32_t number, const lh_pose2 *start, const lh_pose2 *line, float goal);
 
-/* Distance still to go to the goal line, along the heading at the start; 0 or below once it is reached [m]. */
-float lh_episode_distance(const lh_episode *episode, const lh_episode_config *config, const lh_pose2 *pose);
+/* Distance still to go to the goal line, along the straight line; 0 or below once it is reached [m]. */
+float lh_episode_distance(const lh_episode *episode, const lh_pose2 *pose);
 
-/* Offset from the straight line to the goal, positive to the left; its magnitude on the goal line is d3 [m]. */
+/* Offset from the straight line, positive to the left; its magnitude on the goal line is d3 [m]. */
 float lh_episode_lateral(const lh_episode *episode, const lh_pose2 *pose);
 
 /* Outcome after the newest step; a tumble counts before the goal, the goal before the time limit.

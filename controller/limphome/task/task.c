@@ -21,6 +21,7 @@ lh_task_config lh_task_config_default(void) {
         .support_tolerance = 0.03f,
         .reward = lh_reward_config_default(),
         .episode = lh_episode_config_default(),
+        .path = lh_path_config_default(),
     };
 }
 
@@ -33,7 +34,10 @@ lh_error lh_task_config_validate(const lh_task_config *config) {
         return LH_ERROR_LIMIT;
     }
     lh_error error = lh_reward_config_validate(&config->reward);
-    return error == LH_OK ? lh_episode_config_validate(&config->episode) : error;
+    if (error == LH_OK) {
+        error = lh_episode_config_validate(&config->episode);
+    }
+    return error == LH_OK ? lh_path_config_validate(&config->path) : error;
 }
 
 static lh_error validate_controlled(const lh_controlled *controlled, const lh_robot *robot) {
@@ -96,7 +100,7 @@ static lh_reward rewards_of_step(const lh_task *task, const situation *now, lh_o
     const lh_reward_config *config = &task->config.reward;
     const lh_episode *episode = &task->episode;
     lh_reward reward = {
-        .motion = lh_reward_motion(config, &task->pose, &now->pose, episode->start.heading),
+        .motion = lh_reward_motion(config, &task->pose, &now->pose, episode->line.heading),
         .stability = lh_reward_stability(config, now->margin),
     };
     if (outcome == LH_OUTCOME_GOAL) {
@@ -125,7 +129,11 @@ static lh_summary summarise(const lh_task *task, const lh_pose2 *end, lh_outcome
         .lateral_error = lh_episode_lateral(episode, end),
         .heading_change = lh_wrap_angle(end->heading - episode->start.heading),
         .start = episode->start,
-        .goal_distance = task->config.episode.goal_distance,
+        .line_heading = episode->line.heading,
+        .start_lateral_error = lh_episode_lateral(episode, &episode->start),
+        .goal_distance = lh_episode_distance(episode, &episode->start),
+        .waypoint_distance = lh_path_waypoint_distance(&task->path, &task->config.path, end),
+        .arrived = outcome == LH_OUTCOME_GOAL && lh_path_over(&task->path, &task->config.path, end),
     };
 }
 
@@ -151,13 +159,26 @@ static void describe(const lh_task *task, const situation *now, lh_observed *obs
     observed->step = episode->steps;
     observed->pose = now->pose;
     observed->stability_margin = now->margin;
-    observed->goal_distance = lh_episode_distance(episode, &task->config.episode, &now->pose);
+    observed->goal_distance = lh_episode_distance(episode, &now->pose);
     observed->lateral_error = lh_episode_lateral(episode, &now->pose);
-    observed->heading_error = lh_wrap_angle(now->pose.heading - episode->start.heading);
+    observed->heading_error = lh_wrap_angle(now->pose.heading - episode->line.heading);
+    observed->waypoint_distance = lh_path_waypoint_distance(&task->path, &task->config.path, &now->pose);
 }
 
 static int32_t number_after(const lh_episode *episode) {
     return episode->number < LH_LAST_EPISODE ? episode->number + 1 : LH_LAST_EPISODE;
+}
+
+/* The next episode begins at `pose`, on the path's leg there. */
+static void begin_episode(lh_task *task, int32_t number, const lh_pose2 *pose) {
+    const lh_path_config *config = &task->config.path;
+    lh_path *path = &task->path;
+    if (!task->acting || config->kind == LH_PATH_ROLLING) {
+        lh_path_begin(path, config, pose);
+    }
+    lh_path_advance(path, config, pose);
+    lh_episode_begin(&task->episode, number, pose, &path->leg,
+                     lh_path_goal(path, pose, task->config.episode.goal_distance));
 }
 
 lh_error lh_task_observe(lh_task *task, const lh_state *state, lh_observed *observed) {
@@ -178,20 +199,20 @@ lh_error lh_task_observe(lh_task *task, const lh_state *state, lh_observed *obse
     if (task->acting) {
         outcome = finish_step(task, &now, observed);
     } else {
-        lh_episode_begin(episode, episode->number, &now.pose);
+        begin_episode(task, episode->number, &now.pose);
     }
     if (outcome != LH_OUTCOME_NONE) {
-        bool tumbled = outcome == LH_OUTCOME_TUMBLE;
-        observed->reset = tumbled || episode->number % task->config.episode.reset_every == 0;
+        observed->reset = outcome == LH_OUTCOME_TUMBLE || observed->summary.arrived ||
+                          episode->number % task->config.episode.reset_every == 0;
     }
     if (observed->reset) {
         describe(task, &now, observed);
-        lh_episode_begin(episode, number_after(episode), &now.pose); /* once more when the robot is in its pose */
         task->acting = false;
+        begin_episode(task, number_after(episode), &now.pose); /* once more when the robot is in its pose */
         return LH_OK;
     }
     if (outcome != LH_OUTCOME_NONE) {
-        lh_episode_begin(episode, number_after(episode), &now.pose);
+        begin_episode(task, number_after(episode), &now.pose);
     }
     describe(task, &now, observed);
     task->pose = now.pose;

@@ -10,6 +10,7 @@
 
 #include "limphome/task/episode.h"
 #include "limphome/task/observation.h"
+#include "limphome/task/path.h"
 #include "limphome/task/reward.h"
 
 #ifdef __cplusplus
@@ -22,6 +23,7 @@ typedef struct lh_task_config {
     float support_tolerance; /* LH_SUPPORT_TOLERANCE_MIN to _MAX of kinematics.h [m]; default 0.03 */
     lh_reward_config reward;
     lh_episode_config episode;
+    lh_path_config path;
 } lh_task_config;
 
 /* An episode that has ended. */
@@ -30,10 +32,14 @@ typedef struct lh_summary {
     lh_outcome outcome;
     int32_t steps;
     lh_reward total;
-    float lateral_error;  /* positive to the left [m] */
+    float lateral_error;  /* at the end, positive to the left [m] */
     float heading_change; /* end minus start, (-pi, pi] [rad] */
     lh_pose2 start;
-    float goal_distance; /* from start to goal line [m] */
+    float line_heading;        /* direction of the straight line, across which the goal line lies [rad] */
+    float start_lateral_error; /* at the start, positive to the left [m] */
+    float goal_distance;       /* from start to goal line, along the straight line [m] */
+    float waypoint_distance;   /* straight from the end to the waypoint at the end of the leg; without one: 0 [m] */
+    bool arrived;              /* reached the end of the path */
 } lh_summary;
 
 /* What one state tells. */
@@ -55,6 +61,7 @@ typedef struct lh_observed {
     float goal_distance;                 /* to the goal line of the running episode [m] */
     float lateral_error;                 /* from the straight line of the running episode, positive to the left [m] */
     float heading_error;                 /* from the direction of that line, positive to the left, (-pi, pi] [rad] */
+    float waypoint_distance;             /* straight to the waypoint at the end of the leg; without one: 0 [m] */
     int32_t num_inputs;                  /* controlled actuators + 2 */
     float inputs[LH_MAX_STATE_INPUTS];   /* states of the controlled actuators, roll, pitch, in [0, 1]: observation.h */
 } lh_observed;
@@ -69,6 +76,7 @@ typedef struct lh_task {
     lh_task_config config;
     lh_robot robot;
     lh_controlled controlled;
+    lh_path path;
     lh_episode episode;
     bool acting;   /* an action follows the newest state, and its result is awaited; false: episode.number begins at the
                       next state */
@@ -93,8 +101,9 @@ void lh_task_begin(lh_task *task, int32_t episode);
 
 /* Takes in one state. LH_ERROR_STATE, and nothing changed, if it is not valid.
  * An episode that ends on the goal line or by the time limit is followed by the next from where the robot is, unless
- * its number is a multiple of config.episode.reset_every; then, and after a tumble, a reset is asked for, and the next
- * episode begins at the next state. Episode LH_LAST_EPISODE is followed by others of the same number. */
+ * its number is a multiple of config.episode.reset_every; then, after a tumble and at the end of the path, a reset is
+ * asked for, and the next episode begins at the next state, where the path begins again. Episode LH_LAST_EPISODE is
+ * followed by others of the same number. */
 lh_error lh_task_observe(lh_task *task, const lh_state *state, lh_observed *observed);
 
 /* Velocities [m/s or rad/s] of joint action `action`, into velocity[robot.num_actuators]; those of actuators that are

@@ -60,7 +60,12 @@ def evaluate(folder, policy, url):
     tail = runfolder.EpisodeTail(folder.episodes)
     with Pair(folder, url, ["--evaluate", policy]) as pair:
         pair.run(tail, Progress(episodes, quiet=not sys.stderr.isatty()))
-    return summarise(folder.read_episodes())
+    summary = summarise(folder.read_episodes())
+    if folder.settings()["task"]["path"].startswith("to "):
+        from limphome_lab.show import missions  # needs the message types, which --help does without
+
+        summary |= missions.summarise(missions.missions(folder.messages))
+    return summary
 
 
 @with_exit_code

@@ -32,11 +32,16 @@ LABELS = {
     "median_lateral_error_m": ("median |lateral error|", "{:.3f} m"),
     "median_heading_change_rad": ("median |change of heading|", "{:.3f} rad"),
     "median_reward": ("median total reward", "{:.2f}"),
+    "missions": ("paths driven to their end, or tumbled", "{:d}"),
+    "arrived": ("arrived", "{:d}"),
+    "median_final_error_m": ("median final error", "{:.3f} m"),
+    "worst_final_error_m": ("worst final error", "{:.3f} m"),
+    "median_mission_s": ("median duration of a path", "{:.1f} s"),
 }
 
 
 def table(summary):
     """The summary as aligned lines of text."""
-    rows = [(label, form.format(summary[name])) for name, (label, form) in LABELS.items()]
+    rows = [(LABELS[name][0], LABELS[name][1].format(value)) for name, value in summary.items() if value is not None]
     width = max(len(label) for label, _ in rows)
     return "\n".join(f"{label:<{width}}  {value}" for label, value in rows)

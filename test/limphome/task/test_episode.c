@@ -37,7 +37,7 @@ END_TEST
 START_TEST(begins_clean) {
     lh_episode episode;
     memset(&episode, 0x5a, sizeof episode);
-    lh_episode_begin(&episode, 17, &start);
+    lh_episode_begin(&episode, 17, &start, &start, 2.0f);
     ck_assert_int_eq(episode.number, 17);
     ck_assert_int_eq(episode.steps, 0);
     ck_assert_float_eq(episode.start.y, -1.0f);
@@ -46,27 +46,36 @@ START_TEST(begins_clean) {
 END_TEST
 
 START_TEST(distance_and_offset) {
-    const lh_episode_config config = lh_episode_config_default();
     lh_episode episode;
-    lh_episode_begin(&episode, 1, &start);
+    lh_episode_begin(&episode, 1, &start, &start, 2.0f);
     /* 0.5 m ahead, 0.25 m to the left of a robot that faces +y */
     const lh_pose2 pose = {2.75f, -0.5f, 0.0f};
-    expect_near(lh_episode_distance(&episode, &config, &pose), 1.5, 1e-6);
+    expect_near(lh_episode_distance(&episode, &pose), 1.5, 1e-6);
     expect_near(lh_episode_lateral(&episode, &pose), 0.25, 1e-6);
 
     /* the same seen along another heading */
     const lh_pose2 oblique = {0.0f, 0.0f, 0.7f};
-    lh_episode_begin(&episode, 1, &oblique);
+    lh_episode_begin(&episode, 1, &oblique, &oblique, 2.0f);
     const lh_pose2 there = {(float)(1.2 * cos(0.7) + 0.4 * sin(0.7)), (float)(1.2 * sin(0.7) - 0.4 * cos(0.7)), 2.0f};
-    expect_near(lh_episode_distance(&episode, &config, &there), 0.8, 1e-6);
+    expect_near(lh_episode_distance(&episode, &there), 0.8, 1e-6);
     expect_near(lh_episode_lateral(&episode, &there), -0.4, 1e-6);
+}
+END_TEST
+
+/* The line need not go through the start. */
+START_TEST(distance_and_offset_are_those_from_the_line) {
+    const lh_pose2 line = {0.0f, 1.0f, 0.0f};
+    lh_episode episode;
+    lh_episode_begin(&episode, 1, &start, &line, 4.5f);
+    expect_near(lh_episode_distance(&episode, &start), 1.5, 1e-6);
+    expect_near(lh_episode_lateral(&episode, &start), -2.0, 1e-6);
 }
 END_TEST
 
 START_TEST(outcomes_and_their_precedence) {
     const lh_episode_config config = lh_episode_config_default();
     lh_episode episode;
-    lh_episode_begin(&episode, 1, &start);
+    lh_episode_begin(&episode, 1, &start, &start, 2.0f);
     const lh_pose2 before = {3.0f, 0.999f, 0.0f};
     const lh_pose2 beyond = {5.0f, 1.001f, 0.0f}; /* the line is infinite: 2 m beside the goal counts */
     const float upright = 1.04f;
@@ -92,6 +101,7 @@ Suite *suite(void) {
     tcase_add_test(t, bad_fields_are_named);
     tcase_add_test(t, begins_clean);
     tcase_add_test(t, distance_and_offset);
+    tcase_add_test(t, distance_and_offset_are_those_from_the_line);
     tcase_add_test(t, outcomes_and_their_precedence);
     suite_add_tcase(s, t);
     return s;

@@ -54,6 +54,7 @@ START_TEST(bad_fields_are_named) {
     BAD(support_tolerance, 0.0f, LH_ERROR_LIMIT);
     BAD(reward.forward, -1.0f, LH_ERROR_REWARD);
     BAD(episode.reset_every, 0, LH_ERROR_EPISODE);
+    BAD(path.kind, (lh_path_kind)7, LH_ERROR_PATH);
 #undef BAD
 }
 END_TEST
@@ -127,6 +128,148 @@ START_TEST(after_a_reset_the_next_state_is_a_first_one) {
 }
 END_TEST
 
+/* The level robot at (x, y) with this heading. */
+static lh_observed observe_pose(lh_task *task, float x, float y, float heading) {
+    const lh_state state = crawler_state(x, y, heading);
+    lh_observed observed;
+    ck_assert_int_eq(lh_task_observe(task, &state, &observed), LH_OK);
+    return observed;
+}
+
+/* The first point is 3 m ahead of a robot at the origin that faces +y, the second 1 m to the right of it. */
+static lh_task make_task_of_corner(void) {
+    lh_task_config config = lh_task_config_default();
+    config.path =
+        (lh_path_config){.kind = LH_PATH_WAYPOINTS, .num_waypoints = 2, .waypoint = {{0.0f, 3.0f}, {1.0f, 3.0f}}};
+    return make_task(&config);
+}
+
+START_TEST(a_rolling_line_goes_where_the_robot_faces) {
+    const lh_task_config config = lh_task_config_default();
+    lh_task task = make_task(&config);
+    observe_pose(&task, 0.0f, 0.0f, facing_y);
+    const lh_observed next = observe_pose(&task, 0.5f, 2.1f, 0.0f);
+    ck_assert_int_eq(next.outcome, LH_OUTCOME_GOAL);
+    ck_assert(!next.summary.arrived);
+    expect_near(next.summary.line_heading, M_PI_2, 1e-6);
+    expect_near(next.summary.start_lateral_error, 0.0, 1e-6);
+    ck_assert_float_eq(next.summary.waypoint_distance, 0.0f);
+    expect_near(next.goal_distance, 2.0, 1e-6);
+    expect_near(next.lateral_error, 0.0, 1e-6);
+    expect_near(next.heading_error, 0.0, 1e-6);
+}
+END_TEST
+
+/* An error at the end of one episode is still one at the beginning of the next. */
+START_TEST(the_line_ahead_stays) {
+    lh_task_config config = lh_task_config_default();
+    config.path.kind = LH_PATH_AHEAD;
+    lh_task task = make_task(&config);
+    observe_pose(&task, 0.0f, 0.0f, facing_y);
+    const lh_observed next = observe_pose(&task, 0.5f, 2.1f, facing_y - 0.25f);
+    ck_assert_int_eq(next.outcome, LH_OUTCOME_GOAL);
+    expect_near(next.goal_distance, 2.0, 1e-6);
+    expect_near(next.lateral_error, -0.5, 1e-6);
+    expect_near(next.heading_error, -0.25, 1e-6);
+    const lh_observed after = observe_pose(&task, 0.5f, 4.2f, facing_y);
+    ck_assert_int_eq(after.outcome, LH_OUTCOME_GOAL);
+    expect_near(after.summary.goal_distance, 2.0, 1e-6);
+    expect_near(after.summary.start_lateral_error, -0.5, 1e-6);
+    expect_near(after.summary.lateral_error, -0.5, 1e-6);
+    expect_near(after.summary.heading_change, 0.25, 1e-6);
+    ck_assert(!after.summary.arrived && !after.reset);
+}
+END_TEST
+
+START_TEST(a_path_is_followed_to_its_end) {
+    lh_task task = make_task_of_corner();
+    const lh_observed first = observe_pose(&task, 0.0f, 0.0f, facing_y);
+    expect_near(first.goal_distance, 2.0, 1e-6);
+    expect_near(first.waypoint_distance, 3.0, 1e-6);
+    const lh_observed second = observe_pose(&task, 0.1f, 2.1f, facing_y);
+    ck_assert_int_eq(second.outcome, LH_OUTCOME_GOAL);
+    expect_near(second.goal_distance, 0.9, 1e-6); /* the waypoint is nearer than b */
+    expect_near(second.lateral_error, -0.1, 1e-6);
+    const lh_observed third = observe_pose(&task, -0.2f, 3.1f, facing_y);
+    ck_assert_int_eq(third.outcome, LH_OUTCOME_GOAL);
+    ck_assert(!third.summary.arrived && !third.reset);
+    expect_near(third.summary.lateral_error, 0.2, 1e-6);
+    expect_near(third.summary.waypoint_distance, sqrt(0.05), 1e-6);
+    expect_near(third.goal_distance, 1.2, 1e-6); /* along +x from here on */
+    expect_near(third.lateral_error, 0.1, 1e-6);
+    expect_near(third.heading_error, M_PI_2, 1e-6);
+    const lh_observed last = observe_pose(&task, 1.05f, 2.95f, 0.0f);
+    ck_assert_int_eq(last.outcome, LH_OUTCOME_GOAL);
+    ck_assert(last.summary.arrived && last.reset);
+    expect_near(last.summary.goal_distance, 1.2, 1e-6);
+    expect_near(last.summary.start_lateral_error, 0.1, 1e-6);
+    expect_near(last.summary.line_heading, 0.0, 1e-6);
+    expect_near(last.summary.waypoint_distance, 0.05 * sqrt(2.0), 1e-6);
+    expect_near(last.reward.goal, 10.0 * exp(-0.05), 1e-5);
+
+    const lh_observed again = observe_pose(&task, 0.0f, 0.0f, facing_y);
+    ck_assert_int_eq(again.episode, 4);
+    expect_near(again.goal_distance, 2.0, 1e-6);
+    expect_near(again.heading_error, 0.0, 1e-6);
+}
+END_TEST
+
+/* Nothing but the end of the path, a tumble and reset_every begin it again. */
+START_TEST(a_time_limit_stays_on_the_leg) {
+    lh_task task = make_task_of_corner();
+    task.config.episode.step_limit = 1;
+    observe_pose(&task, 0.0f, 0.0f, facing_y);
+    const lh_observed next = observe_pose(&task, 0.5f, -0.5f, facing_y);
+    ck_assert_int_eq(next.outcome, LH_OUTCOME_TIMEOUT);
+    expect_near(next.goal_distance, 2.0, 1e-6); /* from where the robot is, along the leg */
+    expect_near(next.lateral_error, -0.5, 1e-6);
+    expect_near(next.waypoint_distance, sqrt(12.5), 1e-6);
+}
+END_TEST
+
+START_TEST(a_reset_begins_the_path_again) {
+    lh_task task = make_task_of_corner();
+    task.config.episode.reset_every = 1;
+    observe_pose(&task, 0.0f, 0.0f, facing_y);
+    ck_assert(observe_pose(&task, 0.0f, 3.0f, facing_y).reset);
+    const lh_observed again = observe_pose(&task, 1.0f, 2.0f, facing_y); /* another leg to the first waypoint */
+    expect_near(again.waypoint_distance, sqrt(2.0), 1e-6);
+    expect_near(again.goal_distance, sqrt(2.0), 1e-6);
+    expect_near(again.heading_error, -M_PI_4, 1e-6);
+}
+END_TEST
+
+/* Both ways round are equally far; moving off before the turn reaches no goal. */
+START_TEST(a_target_behind_is_reached_by_turning) {
+    lh_task_config config = lh_task_config_default();
+    config.path = (lh_path_config){.kind = LH_PATH_WAYPOINTS, .num_waypoints = 1, .waypoint = {{0.0f, -4.0f}}};
+    lh_task task = make_task(&config);
+    const lh_observed first = observe_pose(&task, 0.0f, 0.0f, facing_y);
+    expect_near(fabs(first.heading_error), M_PI, 1e-6);
+    expect_near(first.goal_distance, 2.0, 1e-6);
+    const lh_observed away = observe_pose(&task, -0.5f, 2.5f, facing_y + 0.5f);
+    ck_assert_int_eq(away.outcome, LH_OUTCOME_NONE);
+    expect_near(away.goal_distance, 4.5, 1e-6);
+    expect_near(away.lateral_error, -0.5, 1e-6); /* seen along -y the robot is on the right */
+    expect_near(away.heading_error, 0.5 - M_PI, 1e-6);
+    ck_assert_int_eq(observe_pose(&task, -0.5f, -2.0f, -facing_y).outcome, LH_OUTCOME_GOAL);
+    ck_assert(observe_pose(&task, 0.0f, -4.01f, -facing_y).summary.arrived);
+}
+END_TEST
+
+START_TEST(tumbling_on_the_last_line_is_no_arrival) {
+    lh_task task = make_task_of_corner();
+    task.config.path.num_waypoints = 1;
+    observe_pose(&task, 0.0f, 0.0f, facing_y);
+    lh_state state = crawler_state(0.0f, 3.5f, facing_y);
+    state.orientation = (lh_quat){0.0f, 1.0f, 0.0f, 0.0f};
+    lh_observed observed;
+    ck_assert_int_eq(lh_task_observe(&task, &state, &observed), LH_OK);
+    ck_assert_int_eq(observed.outcome, LH_OUTCOME_TUMBLE);
+    ck_assert(observed.reset && !observed.summary.arrived);
+}
+END_TEST
+
 START_TEST(velocities_are_those_of_the_levels) {
     lh_task_config config = lh_task_config_default();
     config.crawler_speed = 0.5f;
@@ -167,6 +310,13 @@ Suite *suite(void) {
     tcase_add_test(t, a_step_is_rewarded_and_summed_up);
     tcase_add_test(t, beginning_elsewhere_forgets_the_step);
     tcase_add_test(t, after_a_reset_the_next_state_is_a_first_one);
+    tcase_add_test(t, a_rolling_line_goes_where_the_robot_faces);
+    tcase_add_test(t, the_line_ahead_stays);
+    tcase_add_test(t, a_path_is_followed_to_its_end);
+    tcase_add_test(t, a_time_limit_stays_on_the_leg);
+    tcase_add_test(t, a_reset_begins_the_path_again);
+    tcase_add_test(t, a_target_behind_is_reached_by_turning);
+    tcase_add_test(t, tumbling_on_the_last_line_is_no_arrival);
     tcase_add_test(t, velocities_are_those_of_the_levels);
     tcase_add_test(t, an_invalid_state_changes_nothing);
     suite_add_tcase(s, t);

@@ -1,8 +1,8 @@
 """Fig. 9: how the robot moves in one episode, at a few times, seen from the side and from above.
 
-The frame is that of the episode: forward is the way it faced at the start, left is across it. The side view is from
-the side of the failed crawler; from the left, forward points to the left. Only level ground is drawn: any other lies
-elsewhere under each part of the robot.
+The frame is that of the episode: forward is along its straight line from the start, left is across it. The side view is
+from the side of the failed crawler; from the left, forward points to the left. Only level ground is drawn: any other
+lies elsewhere under each part of the robot.
 """
 
 import matplotlib.pyplot as plt
@@ -68,7 +68,7 @@ def _parts(robot, episode, state):
     failed = {name for name, health in zip(robot.actuators, state.actuator_health, strict=False) if health != 0}
     parts = []
     for part in robot.posed(state.position, state.orientation, state.actuator_position):
-        seen = style.episode_frame(part.points, episode.start, episode.start_heading)
+        seen = style.episode_frame(part.points, episode.start, episode.line_heading)
         part.points = np.column_stack([seen[:, 1], -seen[:, 0], seen[:, 2]])
         parts.append((part, _colour(robot, part.name, failed)))
     return parts
