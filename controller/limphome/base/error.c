@@ -34,6 +34,8 @@ const char *lh_error_text(lh_error error) {
             return "The state of the random number generator is all zero";
         case LH_ERROR_LEARNER:
             return "The kind of learner is unknown or another than what was saved";
+        case LH_ERROR_PLANNER:
+            return "A setting of the planner is out of range, or a planner does not fit the robot it is for";
         case LH_ERROR_COUNT:
             break;
     }

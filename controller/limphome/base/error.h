@@ -23,7 +23,8 @@ typedef enum lh_error {
     LH_ERROR_NETWORK,   /* a network to be restored has other dimensions or values out of range */
     LH_ERROR_RANDOM_STATE, /* a random state to be restored is all zero */
     LH_ERROR_LEARNER,      /* the kind of learner is unknown, or what is to be restored is of another kind */
-    LH_ERROR_COUNT         /* number of entries above, not an error */
+    LH_ERROR_PLANNER, /* a setting of the planner, or of a planner to be restored, is out of range or does not fit */
+    LH_ERROR_COUNT    /* number of entries above, not an error */
 } lh_error;
 
 /* One English sentence without a full stop, for any value; never NULL. */

@@ -9,6 +9,8 @@
 extern "C" {
 #endif
 
+#define LH_DISCOUNT_RATE_MAX 1.0f /* of every kind */
+
 typedef struct lh_choice {
     /* what the step that led here has taught */
     bool learned;   /* something was changed by it */

@@ -90,6 +90,7 @@ void lh_learner_save(const lh_learner *learner, lh_learned *learned) {
             lh_q_learning_save(&learner->as.q_learning, &learned->as.q_learning);
             break;
         case LH_PLANNER:
+            lh_planner_save(&learner->as.planner, &learned->as.planner);
             break;
     }
 }
@@ -102,7 +103,7 @@ lh_error lh_learner_restore(lh_learner *learner, const lh_learned *learned) {
         case LH_Q_LEARNING:
             return lh_q_learning_restore(&learner->as.q_learning, &learned->as.q_learning);
         case LH_PLANNER:
-            break;
+            return lh_planner_restore(&learner->as.planner, &learned->as.planner);
     }
     return LH_ERROR_LEARNER;
 }

@@ -46,6 +46,7 @@ typedef struct lh_learned {
     lh_learner_kind kind;
     union {
         lh_q_learned q_learning;
+        lh_planner_learned planner;
     } as; /* by kind */
 } lh_learned;
 
@@ -65,7 +66,8 @@ void lh_learner_begin(lh_learner *learner);
  * lh_learner_begin before the next step. */
 void lh_learner_step(lh_learner *learner, const lh_observed *observed, lh_choice *choice);
 
-/* Temperature of exploration in `episode`, from 1: T of (4) for Q-learning. */
+/* Temperature of exploration in `episode`, from 1: T of (4) for Q-learning; 0 for a planner, which
+ * has none. */
 float lh_learner_temperature(const lh_learner *learner, int32_t episode);
 
 void lh_learner_save(const lh_learner *learner, lh_learned *learned);

@@ -1,6 +1,5 @@
 #include "limphome/learning/motion_model.h"
 
-#include <stdbool.h>
 #include <string.h>
 
 #define UNITS_PER_WIDTH 512.0f                 /* of a coordinate of a posture, per width of the kernel */
@@ -153,4 +152,22 @@ void lh_motion_model_correct(const lh_motion_model *model, const lh_motion_sums 
     for (int32_t k = 0; k < LH_MOTION_PARTS; k++) {
         *part[k] += (wide_share * sums->wide[k] + sums->narrow[k]) * narrow_share;
     }
+}
+
+bool lh_motion_model_fits(const lh_motion_model *saved, const lh_motion_model *model) {
+    bool fits = saved->num_actions == model->num_actions && saved->num_joints == model->num_joints &&
+                saved->prior_weight == model->prior_weight && saved->num_samples >= 0 &&
+                saved->num_samples <= LH_MAX_SAMPLES;
+    for (int32_t k = 0; k < LH_PLANNED_JOINTS; k++) {
+        fits = fits && saved->low[k] == model->low[k] && saved->width[k] == model->width[k];
+    }
+    for (int32_t i = 0; fits && i < saved->num_samples; i++) {
+        fits = saved->action[i] >= 0 && saved->action[i] < saved->num_actions && saved->count[i] >= 1 &&
+               saved->count[i] <= LH_SAMPLE_COUNT_MAX;
+        for (int32_t k = 0; k < LH_PLANNED_JOINTS; k++) {
+            fits = fits && saved->posture[k][i] >= -(int16_t)UNITS_PER_WIDTH &&
+                   saved->posture[k][i] <= (int16_t)COORDINATE_MAX;
+        }
+    }
+    return fits;
 }

@@ -4,6 +4,7 @@
 #ifndef LIMPHOME_MOTION_MODEL_H
 #define LIMPHOME_MOTION_MODEL_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "limphome/base/capacity.h"
@@ -62,6 +63,9 @@ void lh_motion_model_gather(const lh_motion_model *model, const float *angle, lh
 
 /* The motion of an action that was expected to be *motion, by the sums of that action. */
 void lh_motion_model_correct(const lh_motion_model *model, const lh_motion_sums *sums, lh_motion *motion);
+
+/* Whether `saved` is of the actions and postures of `model` and its samples are in range. */
+bool lh_motion_model_fits(const lh_motion_model *saved, const lh_motion_model *model);
 
 #ifdef __cplusplus
 }

@@ -57,9 +57,13 @@ const int8_t *lh_planned_joint_levels(const lh_planned *planned, int32_t action)
     return planned->level[action] + planned->num_crawlers;
 }
 
+bool lh_planned_is_still(const lh_planned *planned, int32_t action) {
+    return action == planned->num_actions / 2; /* all digits 1 */
+}
+
 bool lh_planned_allows(const lh_planned *planned, const float *angle, int32_t action) {
-    if (action == planned->num_actions / 2) {
-        return false; /* all still */
+    if (lh_planned_is_still(planned, action)) {
+        return false;
     }
     const int8_t *level = lh_planned_joint_levels(planned, action);
     for (int32_t k = 0; k < planned->num_joints; k++) {

@@ -29,28 +29,43 @@ extern "C" {
 
 #define LH_STEERING_GAIN 0.7f /* [rad/m] */
 
+/* Ranges of lh_planner_config. */
+#define LH_PLANNER_WEIGHT_MAX 100.0f /* of weights in the planning reward */
+#define LH_CANDIDATES_MAX 16
+#define LH_PLANNER_BACKUPS_MAX 1000
+#define LH_DECISION_PERIOD_MIN 0.01f /* [s] */
+#define LH_DECISION_PERIOD_MAX 10.0f /* [s] */
+
 typedef struct lh_planner_config {
-    float decision_period; /* [s] */
-    float discount_rate;
-    float curiosity;
-    float curiosity_decay;
-    float random_share;
-    float stuck_share;
-    float steering;
-    float unsafe;
-    float safe_margin;
-    float width[3];
-    float prior_weight;
-    float physics;
-    float ground_rate;
-    float friction;
-    int32_t candidates;
-    int32_t backups;
-    int32_t imagined_steps;
-    float tuning[8];
+    float decision_period; /* LH_DECISION_PERIOD_MIN to _MAX [s]; default 0.5 */
+    float discount_rate;   /* 0 to LH_DISCOUNT_RATE_MAX; default 0.99: what it takes to fetch the arm must pay */
+    bool mechanics;        /* true: what is not known is expected by quasi_static.h; false: that nothing moves but the
+                              arm. Default true */
+    float steering;        /* weight of the steering error, 0 to LH_PLANNER_WEIGHT_MAX; default 1.5 */
+    float unsafe;          /* weight of a margin below the safe one, 0 to LH_PLANNER_WEIGHT_MAX; default 3 */
+    float curiosity; /* reward for what was never tried here, in episode 1, 0 to LH_PLANNER_WEIGHT_MAX; default 0.3 */
+    float curiosity_decay; /* of that from one episode to the next, 0 to 1; default 0.97 */
+    float random_share;    /* of actions taken at random while it learns, 0 to 1; default 0.02 */
+    int32_t candidates;    /* actions looked into by a second step, 1 (none) to LH_CANDIDATES_MAX; default 10 */
+    int32_t imagined; /* nodes backed up along the way imagined from here, 0 to LH_PLANNER_BACKUPS_MAX; default 20 */
+    int32_t backups;  /* nodes backed up in turn, 0 to LH_PLANNER_BACKUPS_MAX; default 18 */
 } lh_planner_config;
 
-/* What a posture promises. */
+/* All that a later run needs to go on as if unbroken from where a reset was asked for. */
+typedef struct lh_planner_learned {
+    lh_motion_model model;
+    lh_posture_values values;
+    lh_random random;
+    lh_vec3 ground;    /* its normal in the world frame, unit length, z above LH_LEAST_GROUND */
+    float curiosity;   /* that is left, 0 to LH_PLANNER_WEIGHT_MAX */
+    int32_t turn;      /* node that is backed up next in turn */
+    int32_t decisions; /* so far, 0 to LH_LAST_DECISION */
+} lh_planner_learned;
+
+#define LH_LEAST_GROUND 0.5f        /* steeper ground is taken for a misreading */
+#define LH_LAST_DECISION 2000000000 /* where counting stops */
+
+/* What the robot would do at a posture. */
 typedef struct lh_outlook {
     lh_rest rest;
     lh_footing footing;
@@ -62,39 +77,44 @@ typedef struct lh_planner {
     lh_task_config task;
     lh_robot robot;
     lh_planned planned;
-
-    lh_motion_model model;
-    lh_posture_values values;
-    lh_random random;
-    lh_vec3 ground; /* normal in the world */
-    int32_t round;  /* next node in turn */
-    int32_t decisions;
-    float curiosity; /* left */
-    float pace;
-    float best_pace;
-
+    lh_planner_learned learned;
     /* the step under way */
-    bool acting;
-    int32_t action; /* planned */
-    lh_motion expected;
-    lh_pose2 pose;
-    float angle[LH_PLANNED_JOINTS];
-    int32_t node;
-    /* progress */
-    float best_distance; /* least goal distance of the episode [m] */
-    int32_t stalled;     /* decisions since it fell by 5 cm */
-
-    /* while planning */
-    float joint_angle[LH_MAX_ACTUATORS]; /* of the newest state */
-    lh_vec3 up;                          /* vertical in the frame of the ground along the line */
+    bool acting;                    /* an action was chosen and its result is awaited */
+    int32_t action;                 /* of `planned` */
+    lh_motion expected;             /* what mechanics says it will do */
+    lh_pose2 pose;                  /* where it began */
+    float angle[LH_PLANNED_JOINTS]; /* [planned.num_joints] there [rad] */
+    int32_t node;                   /* nearest to these */
+    float best_distance;            /* least goal distance so far, to within 5 cm [m] */
+    int32_t stalled;                /* decisions since it fell */
+    /* while it plans */
+    float joint_angle[LH_MAX_ACTUATORS]; /* of the newest state [rad] */
+    lh_vec3 up;                          /* vertical in the frame of the ground, x along the line: rest.h */
     lh_outlook outlook;
 } lh_planner;
 
 lh_planner_config lh_planner_config_default(void);
+
+/* LH_OK, LH_ERROR_RATE for the discount rate, else LH_ERROR_PLANNER. */
 lh_error lh_planner_config_validate(const lh_planner_config *config);
+
+/* A planner that has measured nothing, for the robot and the actuators that `task` controls. On an error nothing is
+ * changed. */
 lh_error lh_planner_init(lh_planner *planner, const lh_planner_config *config, const lh_task *task, uint64_t seed);
+
+/* Forgets the step under way. */
 void lh_planner_begin(lh_planner *planner);
+
+/* One decision: takes in what the step that led here did, if `learn`, plans, and then chooses; if `greedy`, without
+ * curiosity and chance. Planning goes on without `learn`, on what was measured before. Where the robot has made no
+ * progress for long, chance decides some of the actions in any case. */
 void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool learn, bool greedy, lh_choice *choice);
+
+void lh_planner_save(const lh_planner *planner, lh_planner_learned *learned);
+
+/* LH_ERROR_PLANNER or LH_ERROR_RANDOM_STATE, and nothing changed, if what was saved is of other postures or actions or
+ * is out of range. */
+lh_error lh_planner_restore(lh_planner *planner, const lh_planner_learned *learned);
 
 #ifdef __cplusplus
 }

@@ -8,11 +8,32 @@
 /* 0, +-3, +-8, +-20, +-50 degrees */
 static const float steerings[LH_STEERINGS] = {-0.8726646f, -0.3490659f, -0.1396263f, -0.0523599f, 0.0f,
                                               0.0523599f,  0.1396263f,  0.3490659f,  0.8726646f};
+static const float sines[LH_STEERINGS] = {-0.766044443f, -0.342020143f, -0.139173101f, -0.052335956f, 0.0f,
+                                          0.052335956f,  0.139173101f,  0.342020143f,  0.766044443f};
+static const float cosines[LH_STEERINGS] = {0.642787610f, 0.939692621f, 0.990268069f, 0.998629535f, 1.000000000f,
+                                            0.998629535f, 0.990268069f, 0.939692621f, 0.642787610f};
+/* of the distance from each to the next */
 static const float reciprocals[LH_STEERINGS - 1] = {1.9098593f, 4.7746483f, 11.459156f, 19.098593f,
                                                     19.098593f, 11.459156f, 4.7746483f, 1.9098593f};
 
 float lh_posture_steering(int32_t k) {
     return steerings[k];
+}
+
+float lh_posture_sine(int32_t k) {
+    return sines[k];
+}
+
+float lh_posture_cosine(int32_t k) {
+    return cosines[k];
+}
+
+int32_t lh_posture_column(float steering) {
+    int32_t k = 0;
+    for (int32_t i = 1; i < LH_STEERINGS; i++) {
+        k += steering > 0.5f * (steerings[i - 1] + steerings[i]);
+    }
+    return k;
 }
 
 static int32_t nodes_along(float low, float high, float spacing) {
@@ -137,6 +158,10 @@ float lh_posture_value(const lh_posture_values *values, const lh_cell *cell, flo
     return (low + share * (high - low)) * (1.0f / VALUE_UNITS);
 }
 
+float lh_posture_node_cost(const lh_posture_values *values, int32_t node) {
+    return (float)values->cost[node] * (1.0f / COST_UNITS);
+}
+
 float lh_posture_node_value(const lh_posture_values *values, int32_t node, float steering) {
     float share;
     int32_t k = column(steering, &share);
@@ -156,4 +181,13 @@ void lh_posture_set_value(lh_posture_values *values, int32_t node, int32_t k, fl
 
 void lh_posture_set_cost(lh_posture_values *values, int32_t node, float cost) {
     values->cost[node] = rounded(cost * COST_UNITS);
+}
+
+bool lh_posture_values_fit(const lh_posture_values *saved, const lh_posture_values *values) {
+    bool fits = saved->num_joints == values->num_joints && saved->num_nodes == values->num_nodes;
+    for (int32_t k = 0; k < LH_PLANNED_JOINTS; k++) {
+        fits = fits && saved->count[k] == values->count[k] && saved->low[k] == values->low[k] &&
+               saved->spacing[k] == values->spacing[k];
+    }
+    return fits;
 }

@@ -33,8 +33,13 @@ typedef struct lh_cell {
     float weight[LH_CORNERS]; /* sum 1 */
 } lh_cell;
 
-/* The steering error of column `k`, 0 to LH_STEERINGS - 1 [rad]. */
+/* The steering error of column `k`, 0 to LH_STEERINGS - 1 [rad], its sine and cosine. */
 float lh_posture_steering(int32_t k);
+float lh_posture_sine(int32_t k);
+float lh_posture_cosine(int32_t k);
+
+/* The column nearest to a steering error. */
+int32_t lh_posture_column(float steering);
 
 /* A lattice over [low, high] of each joint, about `spacing` apart, or wider where the nodes would be more than
  * LH_MAX_POSTURES; all values and costs 0. */
@@ -59,11 +64,15 @@ float lh_posture_cost(const lh_posture_values *values, const lh_cell *cell);
 /* Interpolated between corners and steering errors; beyond the outermost, that of the outermost. */
 float lh_posture_value(const lh_posture_values *values, const lh_cell *cell, float steering);
 
-/* The same at one node. */
+/* Both at one node. */
+float lh_posture_node_cost(const lh_posture_values *values, int32_t node);
 float lh_posture_node_value(const lh_posture_values *values, int32_t node, float steering);
 
 void lh_posture_set_value(lh_posture_values *values, int32_t node, int32_t k, float value);
 void lh_posture_set_cost(lh_posture_values *values, int32_t node, float cost);
+
+/* Whether `saved` is of the lattice of `values`. */
+bool lh_posture_values_fit(const lh_posture_values *saved, const lh_posture_values *values);
 
 #ifdef __cplusplus
 }

@@ -17,7 +17,6 @@ extern "C" {
 
 /* Ranges of lh_q_learning_config, from 0; for the temperature floor see boltzmann.h. */
 #define LH_LEARNING_RATE_MAX 1.0f
-#define LH_DISCOUNT_RATE_MAX 1.0f
 
 typedef struct lh_q_learning_config {
     float learning_rate;       /* alpha of (2), 0 to LH_LEARNING_RATE_MAX; paper: 0.1 */

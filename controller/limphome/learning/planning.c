@@ -1,0 +1,269 @@
+#include "limphome/learning/planning.h"
+
+#include <float.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include "limphome/base/elementary.h"
+
+#define FRICTION 0.7f      /* guess, of use on slopes: rubber on concrete */
+#define SAFE_MARGIN 0.02f  /* S_safe [m] */
+#define LACKING_MAX 3.0f   /* of 1 - S / S_safe */
+#define STEERING_BEND 0.1f /* the penalty is quadratic up to here, linear beyond [rad] */
+#define STEERING_MAX 1.0f  /* of an imagined way [rad] */
+#define JAMMED 0.6f        /* an arm that moves less than this share is taken not to get anywhere */
+#define KNOWN 0.1f         /* so much weight of samples halves curiosity */
+
+static float magnitude(float x) {
+    return x < 0.0f ? -x : x;
+}
+
+static float clip(float x, float low, float high) {
+    return x < low ? low : (x > high ? high : x);
+}
+
+float lh_course_steering(lh_course course) {
+    return course.heading + LH_STEERING_GAIN * course.lateral;
+}
+
+/* Penalty for a steering error. */
+static float steering_cost(const lh_planner *planner, float error) {
+    float size = magnitude(error);
+    float bent = size < STEERING_BEND ? size * size / STEERING_BEND : 2.0f * size - STEERING_BEND;
+    return planner->config.steering * bent;
+}
+
+/* Cost of standing for a decision in a posture with this margin [m]. */
+static float standing_cost(const lh_planner *planner, float margin) {
+    float lacking = clip(1.0f - margin / SAFE_MARGIN, 0.0f, LACKING_MAX);
+    return planner->task.reward.stability * lh_exp(-margin) + planner->config.unsafe * lacking;
+}
+
+/* How the robot rests with its planned joints at `angle`; joint_angle[] becomes the angles of all. */
+static void find_rest(const lh_planner *planner, const float *angle, float *joint_angle, lh_rest *rest) {
+    memcpy(joint_angle, planner->joint_angle, sizeof planner->joint_angle);
+    lh_planned_set_angles(&planner->planned, angle, joint_angle);
+    lh_rest_find(&planner->robot, joint_angle, planner->up, planner->task.support_tolerance, rest);
+}
+
+void lh_planning_assess(lh_planner *planner) {
+    lh_posture_values *values = &planner->learned.values;
+    for (int32_t node = 0; node < values->num_nodes; node++) {
+        float angle[LH_PLANNED_JOINTS];
+        float joint_angle[LH_MAX_ACTUATORS];
+        lh_rest rest;
+        lh_posture_angles(values, node, angle);
+        find_rest(planner, angle, joint_angle, &rest);
+        lh_posture_set_cost(values, node, standing_cost(planner, rest.margin));
+    }
+}
+
+void lh_planning_look(lh_planner *planner, const float *angle) {
+    lh_outlook *outlook = &planner->outlook;
+    float joint_angle[LH_MAX_ACTUATORS];
+    find_rest(planner, angle, joint_angle, &outlook->rest);
+    lh_footing_find(&planner->robot, joint_angle, &outlook->rest, planner->up, planner->planned.travel, FRICTION,
+                    &outlook->footing);
+    lh_motion_model_gather(&planner->learned.model, angle, outlook->sums);
+}
+
+lh_motion lh_planning_expect(const lh_planner *planner, int32_t action) {
+    lh_motion motion = {.moved = 1.0f};
+    if (planner->config.mechanics) {
+        float share[LH_MAX_ACTUATORS] = {0.0f};
+        for (int32_t k = 0; k < planner->planned.count; k++) {
+            share[planner->planned.actuator[k]] = (float)(planner->planned.level[action][k] - 1);
+        }
+        lh_twist twist = lh_quasi_static_motion(&planner->outlook.footing, planner->robot.num_actuators, share);
+        motion.forward = twist.forward;
+        motion.sideways = twist.sideways;
+        motion.turn = twist.turn;
+    }
+    return motion;
+}
+
+/* By mechanics and measurements. */
+static lh_motion predict(const lh_planner *planner, int32_t action) {
+    lh_motion motion = lh_planning_expect(planner, action);
+    lh_motion_model_correct(&planner->learned.model, &planner->outlook.sums[action], &motion);
+    return motion;
+}
+
+/* The course after a motion, and the reward for it but for the cost of the posture. sine and cosine are those of the
+ * heading error before. */
+static float advance(const lh_planner *planner, const lh_motion *motion, float sine, float cosine, lh_course *course) {
+    float along = motion->forward * cosine - motion->sideways * sine;
+    float across = motion->forward * sine + motion->sideways * cosine;
+    float half = 0.5f * motion->turn; /* small: the way is along the heading midway */
+    course->lateral += across + half * along;
+    course->heading += motion->turn;
+    const lh_reward_config *reward = &planner->task.reward;
+    return reward->forward * (along - half * across) - reward->sideways * magnitude(motion->sideways) -
+           steering_cost(planner, lh_course_steering(*course));
+}
+
+/* What is best at a node for each steering error. */
+typedef struct node_choice {
+    float value[LH_STEERINGS];
+    int32_t action[LH_STEERINGS]; /* -1: none is allowed */
+    lh_motion motion[LH_STEERINGS];
+} node_choice;
+
+/* Values of `motion` into `next`: the same twice, as nodes are two decisions apart. The steering error is taken to be
+ * one of heading. */
+static void compare(const lh_planner *planner, int32_t action, const lh_motion *motion, int32_t next,
+                    node_choice *best) {
+    const lh_posture_values *values = &planner->learned.values;
+    const float discount = planner->config.discount_rate;
+    const float cost = lh_posture_node_cost(values, next) * (1.0f + discount);
+    for (int32_t k = 0; k < LH_STEERINGS; k++) {
+        float before = lh_posture_steering(k);
+        lh_course course = {before, 0.0f};
+        float reward = advance(planner, motion, lh_posture_sine(k), lh_posture_cosine(k), &course);
+        float after = lh_course_steering(course);
+        float later = after + after - before;
+        float again = reward + steering_cost(planner, after) - steering_cost(planner, later);
+        float value =
+            reward + discount * again - cost + discount * discount * lh_posture_node_value(values, next, later);
+        if (value > best->value[k]) {
+            best->value[k] = value;
+            best->action[k] = action;
+            best->motion[k] = *motion;
+        }
+    }
+}
+
+/* One step of value iteration at `node`. */
+static void back_up(lh_planner *planner, int32_t node, node_choice *best) {
+    lh_posture_values *values = &planner->learned.values;
+    float angle[LH_PLANNED_JOINTS];
+    lh_posture_angles(values, node, angle);
+    lh_planning_look(planner, angle);
+    lh_posture_set_cost(values, node, standing_cost(planner, planner->outlook.rest.margin));
+    for (int32_t k = 0; k < LH_STEERINGS; k++) {
+        best->value[k] = -FLT_MAX;
+        best->action[k] = -1;
+    }
+    for (int32_t a = 0; a < planner->planned.num_actions; a++) {
+        int32_t next = lh_posture_neighbour(values, node, lh_planned_joint_levels(&planner->planned, a));
+        if (next == LH_NO_NODE || lh_planned_is_still(&planner->planned, a)) {
+            continue;
+        }
+        lh_motion motion = predict(planner, a);
+        compare(planner, a, &motion, motion.moved < JAMMED ? node : next, best);
+    }
+    for (int32_t k = 0; k < LH_STEERINGS; k++) {
+        if (best->action[k] >= 0) {
+            lh_posture_set_value(values, node, k, best->value[k]);
+        }
+    }
+}
+
+/* Backs up the nodes along the way that seems best from one that has just been backed up. */
+static void imagine(lh_planner *planner, int32_t node, float steering, node_choice *best) {
+    for (int32_t i = 0; i < planner->config.imagined; i++) {
+        int32_t k = lh_posture_column(steering);
+        if (best->action[k] < 0) {
+            return;
+        }
+        const lh_motion *motion = &best->motion[k];
+        lh_course course = {steering, 0.0f};
+        advance(planner, motion, lh_sin(steering), lh_cos(steering), &course);
+        steering = clip(2.0f * lh_course_steering(course) - steering, -STEERING_MAX, STEERING_MAX);
+        if (motion->moved >= JAMMED) {
+            node = lh_posture_neighbour(&planner->learned.values, node,
+                                        lh_planned_joint_levels(&planner->planned, best->action[k]));
+        }
+        back_up(planner, node, best);
+    }
+}
+
+void lh_planning_improve(lh_planner *planner, int32_t previous, int32_t node, float steering) {
+    node_choice best;
+    if (previous != LH_NO_NODE) {
+        back_up(planner, previous, &best);
+    }
+    back_up(planner, node, &best);
+    imagine(planner, node, steering, &best);
+    int32_t *turn = &planner->learned.turn;
+    for (int32_t i = 0; i < planner->config.backups; i++) {
+        back_up(planner, *turn, &best);
+        *turn = (*turn + 1) % planner->learned.values.num_nodes;
+    }
+}
+
+/* An action, and where it leads. */
+typedef struct option {
+    int32_t action;
+    float reward; /* for the step itself */
+    float value;  /* with all that follows */
+    lh_course course;
+    float angle[LH_PLANNED_JOINTS];
+} option;
+
+/* The posture looked at is `angle`. False if the action is not allowed there. */
+static bool consider(const lh_planner *planner, const float *angle, lh_course course, int32_t action, option *found) {
+    if (!lh_planned_allows(&planner->planned, angle, action)) {
+        return false;
+    }
+    const lh_posture_values *values = &planner->learned.values;
+    lh_motion motion = predict(planner, action);
+    found->action = action;
+    found->course = course;
+    found->reward = advance(planner, &motion, lh_sin(course.heading), lh_cos(course.heading), &found->course);
+    lh_planned_move(&planner->planned, angle, action, motion.moved, found->angle);
+    lh_cell cell;
+    lh_posture_cell(values, found->angle, &cell);
+    found->reward -= lh_posture_cost(values, &cell);
+    found->value = found->reward +
+                   planner->config.discount_rate * lh_posture_value(values, &cell, lh_course_steering(found->course));
+    return true;
+}
+
+/* Value of the best action that follows `option`. */
+static float look_further(lh_planner *planner, const option *from) {
+    lh_planning_look(planner, from->angle);
+    float best = -FLT_MAX;
+    for (int32_t a = 0; a < planner->planned.num_actions; a++) {
+        option next;
+        if (consider(planner, from->angle, from->course, a, &next) && next.value > best) {
+            best = next.value;
+        }
+    }
+    return best;
+}
+
+/* Inserts an option into the best ones, which are in falling order, if it is one of them; their new number. */
+static int32_t rank(option *best, int32_t count, int32_t most, const option *candidate) {
+    if (count == most && candidate->value <= best[count - 1].value) {
+        return count;
+    }
+    int32_t place = count < most ? count : most - 1;
+    for (; place > 0 && best[place - 1].value < candidate->value; place--) {
+        best[place] = best[place - 1];
+    }
+    best[place] = *candidate;
+    return count < most ? count + 1 : most;
+}
+
+int32_t lh_planning_choose(lh_planner *planner, const float *angle, lh_course course, float curiosity, float *value) {
+    lh_planning_look(planner, angle);
+    option best[LH_CANDIDATES_MAX];
+    int32_t count = 0;
+    for (int32_t a = 0; a < planner->planned.num_actions; a++) {
+        option candidate;
+        if (consider(planner, angle, course, a, &candidate)) {
+            float bonus = curiosity * KNOWN / (KNOWN + planner->outlook.sums[a].narrow_weight);
+            candidate.reward += bonus;
+            candidate.value += bonus;
+            count = rank(best, count, planner->config.candidates, &candidate);
+        }
+    }
+    int32_t chosen = 0;
+    for (int32_t i = 0; count > 1 && i < count; i++) {
+        best[i].value = best[i].reward + planner->config.discount_rate * look_further(planner, &best[i]);
+        chosen = best[i].value > best[chosen].value ? i : chosen;
+    }
+    *value = best[chosen].value;
+    return best[chosen].action;
+}
