@@ -372,6 +372,7 @@ static const struct {
     {"\n0                                                                                                   "
      "                                                                   5\n",
      {":2: line too long"}},
+    {"0 5\r5 5\r", {":1: line too long, or no text that ends in \\n"}},
 };
 
 START_TEST(bad_waypoints_are_refused_with_their_place) {
