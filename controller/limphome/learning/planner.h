@@ -46,9 +46,8 @@ typedef struct lh_planner_config {
     float curiosity; /* reward for what was never tried here, in episode 1, 0 to LH_PLANNER_WEIGHT_MAX; default 0.3 */
     float curiosity_decay; /* of that from one episode to the next, 0 to 1; default 0.97 */
     float random_share;    /* of actions taken at random while it learns, 0 to 1; default 0.02 */
-    int32_t candidates;    /* actions looked into by a second step, 1 (none) to LH_CANDIDATES_MAX; default 10 */
-    int32_t imagined; /* nodes backed up along the way imagined from here, 0 to LH_PLANNER_BACKUPS_MAX; default 20 */
-    int32_t backups;  /* nodes backed up in turn, 0 to LH_PLANNER_BACKUPS_MAX; default 18 */
+    int32_t candidates;    /* actions looked into by a second step, 1 (none) to LH_CANDIDATES_MAX; default 5 */
+    int32_t backups;       /* nodes backed up in turn by each decision, 0 to LH_PLANNER_BACKUPS_MAX; default 18 */
 } lh_planner_config;
 
 /* All that a later run needs to go on as if unbroken from where a reset was asked for. */
@@ -68,7 +67,7 @@ typedef struct lh_planner_learned {
 /* What the robot would do at a posture. */
 typedef struct lh_outlook {
     lh_rest rest;
-    lh_footing footing;
+    lh_twist expected[LH_PLANNED_ACTIONS]; /* by mechanics alone */
     lh_motion_sums sums[LH_PLANNED_ACTIONS];
 } lh_outlook;
 
@@ -81,7 +80,7 @@ typedef struct lh_planner {
     /* the step under way */
     bool acting;                    /* an action was chosen and its result is awaited */
     int32_t action;                 /* of `planned` */
-    lh_motion expected;             /* what mechanics says it will do */
+    lh_twist expected;              /* what mechanics says it will do */
     lh_pose2 pose;                  /* where it began */
     float angle[LH_PLANNED_JOINTS]; /* [planned.num_joints] there [rad] */
     int32_t node;                   /* nearest to these */
