@@ -30,7 +30,8 @@ lh_planner_config lh_planner_config_default(void) {
         .curiosity_decay = 0.97f,
         .random_share = 0.02f,
         .candidates = 5,
-        .backups = 18,
+        .sweeps = 10,
+        .backups = 8,
     };
 }
 
@@ -43,15 +44,13 @@ lh_error lh_planner_config_validate(const lh_planner_config *config) {
         return LH_ERROR_RATE;
     }
     bool good = lh_within(config->decision_period, LH_DECISION_PERIOD_MIN, LH_DECISION_PERIOD_MAX) &&
-                        lh_within(config->steering, 0.0f, LH_PLANNER_WEIGHT_MAX) &&
-                        lh_within(config->unsafe, 0.0f, LH_PLANNER_WEIGHT_MAX) &&
-                        lh_within(config->curiosity, 0.0f, LH_PLANNER_WEIGHT_MAX) &&
-                        lh_within(config->curiosity_decay, 0.0f, 1.0f) && lh_within(config->random_share, 0.0f, 1.0f) &&
-                        is_count(config->candidates, 1, LH_CANDIDATES_MAX) &&
-                is_count(config->backups, 0, LH_PLANNER_BACKUPS_MAX);
-    return good
-                    ? LH_OK
-                    : LH_ERROR_PLANNER;
+                lh_within(config->steering, 0.0f, LH_PLANNER_WEIGHT_MAX) &&
+                lh_within(config->unsafe, 0.0f, LH_PLANNER_WEIGHT_MAX) &&
+                lh_within(config->curiosity, 0.0f, LH_PLANNER_WEIGHT_MAX) &&
+                lh_within(config->curiosity_decay, 0.0f, 1.0f) && lh_within(config->random_share, 0.0f, 1.0f) &&
+                is_count(config->candidates, 1, LH_CANDIDATES_MAX) && is_count(config->sweeps, 0, LH_SWEEPS_MAX) &&
+                is_count(config->backups, 0, LH_BACKUPS_MAX);
+    return good ? LH_OK : LH_ERROR_PLANNER;
 }
 
 lh_error lh_planner_init(lh_planner *planner, const lh_planner_config *config, const lh_task *task, uint64_t seed) {
@@ -78,6 +77,9 @@ lh_error lh_planner_init(lh_planner *planner, const lh_planner_config *config, c
     planner->up = vertical;
     planner->node = LH_NO_NODE;
     lh_planning_assess(planner);
+    for (int32_t i = 0; i < config->sweeps; i++) {
+        lh_planning_back_up_in_turn(planner, learned->values.num_nodes);
+    }
     return LH_OK;
 }
 
@@ -203,7 +205,11 @@ void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool lear
     lh_cell cell;
     lh_posture_cell(&learned->values, angle, &cell);
     int32_t node = lh_posture_nearest(&cell);
-    lh_planning_improve(planner, planner->node, node);
+    if (planner->node != LH_NO_NODE) {
+        lh_planning_back_up(planner, planner->node); /* where something has just been measured */
+    }
+    lh_planning_back_up(planner, node);
+    lh_planning_back_up_in_turn(planner, planner->config.backups);
 
     lh_option chosen = choose(planner, angle, course, greedy);
     choice->action = lh_planned_joint_action(&planner->planned, chosen.action);

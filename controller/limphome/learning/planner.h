@@ -32,7 +32,8 @@ extern "C" {
 /* Ranges of lh_planner_config. */
 #define LH_PLANNER_WEIGHT_MAX 100.0f /* of weights in the planning reward */
 #define LH_CANDIDATES_MAX 16
-#define LH_PLANNER_BACKUPS_MAX 1000
+#define LH_SWEEPS_MAX 100
+#define LH_BACKUPS_MAX 1000
 #define LH_DECISION_PERIOD_MIN 0.01f /* [s] */
 #define LH_DECISION_PERIOD_MAX 10.0f /* [s] */
 
@@ -47,7 +48,9 @@ typedef struct lh_planner_config {
     float curiosity_decay; /* of that from one episode to the next, 0 to 1; default 0.97 */
     float random_share;    /* of actions taken at random while it learns, 0 to 1; default 0.02 */
     int32_t candidates;    /* actions looked into by a second step, 1 (none) to LH_CANDIDATES_MAX; default 5 */
-    int32_t backups;       /* nodes backed up in turn by each decision, 0 to LH_PLANNER_BACKUPS_MAX; default 18 */
+    int32_t sweeps;  /* of value iteration over all postures before the first decision, 0 to LH_SWEEPS_MAX; default
+                        10 */
+    int32_t backups; /* nodes backed up in turn by each decision, 0 to LH_BACKUPS_MAX; default 8 */
 } lh_planner_config;
 
 /* All that a later run needs to go on as if unbroken from where a reset was asked for. */

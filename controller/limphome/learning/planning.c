@@ -133,8 +133,7 @@ static void compare(const lh_planner *planner, const lh_motion *motion, int32_t 
     }
 }
 
-/* One step of value iteration at `node`. */
-static void back_up(lh_planner *planner, int32_t node) {
+void lh_planning_back_up(lh_planner *planner, int32_t node) {
     lh_posture_values *values = &planner->learned.values;
     float angle[LH_PLANNED_JOINTS];
     lh_posture_angles(values, node, angle);
@@ -156,15 +155,11 @@ static void back_up(lh_planner *planner, int32_t node) {
     }
 }
 
-void lh_planning_improve(lh_planner *planner, int32_t previous, int32_t node) {
-    if (previous != LH_NO_NODE) {
-        back_up(planner, previous);
-    }
-    back_up(planner, node);
+void lh_planning_back_up_in_turn(lh_planner *planner, int32_t count) {
     int32_t *turn = &planner->learned.turn;
-    for (int32_t i = 0; i < planner->config.backups; i++) {
-        back_up(planner, *turn);
-        *turn = (*turn + 1) % planner->learned.values.num_nodes;
+    for (int32_t i = 0; i < count; i++) {
+        lh_planning_back_up(planner, *turn);
+        *turn = *turn + 1 < planner->learned.values.num_nodes ? *turn + 1 : 0;
     }
 }
 

@@ -13,7 +13,7 @@ typedef struct lh_course {
     float lateral; /* error [m] */
 } lh_course;
 
-/* Heading error + LH_STEERING_GAIN times lateral error. */
+/* Steering error: planner.h [rad]. */
 float lh_course_steering(lh_course course);
 
 /* Costs of all nodes, on ground with the vertical planner->up, other joints as in planner->joint_angle. */
@@ -22,8 +22,11 @@ void lh_planning_assess(lh_planner *planner);
 /* What planner->outlook is to tell: the posture angle[planned.num_joints]. */
 void lh_planning_look(lh_planner *planner, const float *angle);
 
-/* Backs up `previous`, unless LH_NO_NODE, `node`, and config.backups nodes in turn. */
-void lh_planning_improve(lh_planner *planner, int32_t previous, int32_t node);
+/* One step of value iteration at `node`: its values become the best that an action promises there. */
+void lh_planning_back_up(lh_planner *planner, int32_t node);
+
+/* The same at `count` nodes, one after the other from where it was left the last time. */
+void lh_planning_back_up_in_turn(lh_planner *planner, int32_t count);
 
 /* An action taken where the arm is, and where it leads. */
 typedef struct lh_option {
