@@ -198,9 +198,9 @@ void bus_send_episode(bus *b, const limphome_episode_t *episode) {
     send(b, LIMPHOME_CHANNEL_EPISODE, bytes, ENCODE(episode_t, episode, bytes), true);
 }
 
-void bus_send_policy(bus *b, const limphome_policy_t *policy) {
-    unsigned char bytes[LARGEST_MESSAGE];
-    send(b, LIMPHOME_CHANNEL_POLICY, bytes, ENCODE(policy_t, policy, bytes), true);
+void bus_send_policy(bus *b, const learned *l) {
+    unsigned char bytes[LEARNED_LARGEST];
+    send(b, learned_channel(l), bytes, learned_encode_policy(l, bytes, sizeof bytes), true);
 }
 
 void bus_send_status(bus *b, const limphome_status_t *status) {

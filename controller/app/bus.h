@@ -9,9 +9,9 @@
 #include <stdint.h>
 
 #include "fail.h"
+#include "learned.h"
 #include "limphome_decision_t.h"
 #include "limphome_episode_t.h"
-#include "limphome_policy_t.h"
 #include "limphome_robot_state_t.h"
 #include "limphome_status_t.h"
 #include "limphome_velocity_command_t.h"
@@ -59,7 +59,7 @@ void bus_send_command(bus *b, const limphome_velocity_command_t *command, bool r
 void bus_send_reset(bus *b, int64_t session, int64_t seq, int32_t episode, bool repeats);
 void bus_send_decision(bus *b, const limphome_decision_t *decision);
 void bus_send_episode(bus *b, const limphome_episode_t *episode);
-void bus_send_policy(bus *b, const limphome_policy_t *policy);
+void bus_send_policy(bus *b, const learned *l);
 void bus_send_status(bus *b, const limphome_status_t *status);
 
 /* Monotonic clock [s], and the same in whole microseconds as messages carry it. */

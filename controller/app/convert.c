@@ -70,11 +70,29 @@ static lh_q_learning_config convert_q_learning(const settings *s) {
     };
 }
 
+static lh_planner_config convert_planner(const settings *s) {
+    return (lh_planner_config){
+        .decision_period = (float)s->episode.decision_period_s,
+        .discount_rate = (float)s->learning.discount_rate,
+        .mechanics = s->planner.mechanics == SETTINGS_MECHANICS_QUASI_STATIC,
+        .steering = (float)s->planner.steering,
+        .unsafe = (float)s->planner.unsafe,
+        .curiosity = (float)s->planner.curiosity,
+        .curiosity_decay = (float)s->planner.curiosity_decay,
+        .random_share = (float)s->planner.random_share,
+        .candidates = (int32_t)s->planner.candidates,
+        .imagined = (int32_t)s->planner.imagined,
+        .backups = (int32_t)s->planner.backups,
+    };
+}
+
 lh_config convert_config(const settings *s) {
     lh_config config = lh_config_default();
     config.task = convert_task(s);
+    config.learner.kind = s->learner.kind == SETTINGS_PLANNER ? LH_PLANNER : LH_Q_LEARNING;
     config.learner.seed = (uint64_t)s->learning.seed;
     config.learner.q_learning = convert_q_learning(s);
+    config.learner.planner = convert_planner(s);
     return config;
 }
 
@@ -200,125 +218,4 @@ void convert_limits(const lh_controller *c, limphome_status_t *status) {
     }
     status->clamped = status->clamped_inputs + status->clamped_temperatures + status->clamped_margins +
                       status->clamped_weights + status->clamped_widths + status->clamped_centres;
-}
-
-/* For what the policy is: actuators, speeds of their levels, ranges of their state inputs. */
-static void fill_purpose(const lh_task *task, limphome_policy_t *policy) {
-    policy->num_actuators = task->robot.num_actuators;
-    policy->num_controlled = task->controlled.count;
-    for (int32_t k = 0; k < task->controlled.count; k++) {
-        const lh_actuator *actuator = &task->robot.actuators[task->controlled.index[k]];
-        policy->controlled[k] = (int8_t)task->controlled.index[k];
-        policy->speed[k] = actuator->kind == LH_CRAWLER ? task->config.crawler_speed : task->config.joint_speed;
-        lh_observation_range(actuator, &policy->input_low[k], &policy->input_high[k]);
-    }
-}
-
-static bool has_purpose(const limphome_policy_t *policy, const lh_task *task) {
-    limphome_policy_t ours;
-    memset(&ours, 0, sizeof ours);
-    fill_purpose(task, &ours);
-    const size_t bytes = (size_t)ours.num_controlled * sizeof ours.speed[0];
-    return policy->num_actuators == ours.num_actuators && policy->num_controlled == ours.num_controlled &&
-           memcmp(policy->controlled, ours.controlled, (size_t)ours.num_controlled) == 0 &&
-           memcmp(policy->speed, ours.speed, bytes) == 0 && memcmp(policy->input_low, ours.input_low, bytes) == 0 &&
-           memcmp(policy->input_high, ours.input_high, bytes) == 0;
-}
-
-static void fill_network(const lh_network *network, limphome_policy_t *policy) {
-    policy->num_units = network->units;
-    policy->num_inputs = network->inputs;
-    for (int32_t j = 0; j < network->units; j++) {
-        policy->weight[j] = network->weight[j];
-        policy->width[j] = network->width[j];
-        for (int32_t i = 0; i < network->inputs; i++) {
-            policy->centre[j][i] = network->centre[i][j];
-        }
-    }
-}
-
-static bool read_network(const limphome_policy_t *policy, lh_network *network) {
-    memset(network, 0, sizeof *network);
-    if (policy->num_units > LH_MAX_UNITS || policy->num_inputs > LH_MAX_INPUTS) {
-        return false;
-    }
-    network->units = policy->num_units;
-    network->inputs = policy->num_inputs;
-    for (int32_t j = 0; j < policy->num_units; j++) {
-        network->weight[j] = policy->weight[j];
-        network->width[j] = policy->width[j];
-        for (int32_t i = 0; i < policy->num_inputs; i++) {
-            network->centre[i][j] = policy->centre[j][i];
-        }
-    }
-    return true;
-}
-
-bool convert_from_policy(const limphome_policy_t *policy, const lh_controller *c, lh_learned *learned) {
-    lh_learner_save(&c->learner, learned);
-    if (!has_purpose(policy, &c->task)) {
-        return false;
-    }
-    switch (learned->kind) {
-        case LH_Q_LEARNING:
-            return read_network(policy, &learned->as.q_learning.network);
-        case LH_PLANNER:
-            break;
-    }
-    return false;
-}
-
-/* What Q-learning has beside its network. */
-static limphome_q_learning_t save_q_learning(const lh_q_learned *learned) {
-    limphome_q_learning_t message = {
-        .clamped_temperatures = (int64_t)learned->floored,
-        .clamped_weights = (int64_t)learned->held.weights,
-        .clamped_widths = (int64_t)learned->held.widths,
-        .clamped_centres = (int64_t)learned->held.centres,
-    };
-    memcpy(message.random_state, learned->random.s, sizeof message.random_state);
-    return message;
-}
-
-static void restore_q_learning(const limphome_q_learning_t *message, lh_q_learned *learned) {
-    learned->floored = (uint64_t)message->clamped_temperatures;
-    learned->held.weights = (uint64_t)message->clamped_weights;
-    learned->held.widths = (uint64_t)message->clamped_widths;
-    learned->held.centres = (uint64_t)message->clamped_centres;
-    memcpy(learned->random.s, message->random_state, sizeof learned->random.s);
-}
-
-limphome_checkpoint_t convert_checkpoint(const lh_controller *c, int32_t episode, int64_t utime,
-                                         int64_t settings_hash) {
-    limphome_checkpoint_t checkpoint;
-    memset(&checkpoint, 0, sizeof checkpoint);
-    checkpoint.settings_hash = settings_hash;
-    checkpoint.episode = checkpoint.policy.episode = episode;
-    checkpoint.policy.utime = utime;
-    fill_purpose(&c->task, &checkpoint.policy);
-    lh_learned learned;
-    lh_learner_save(&c->learner, &learned);
-    switch (learned.kind) {
-        case LH_Q_LEARNING:
-            checkpoint.learner = LIMPHOME_CHECKPOINT_T_Q_LEARNING;
-            fill_network(&learned.as.q_learning.network, &checkpoint.policy);
-            checkpoint.q_learning = save_q_learning(&learned.as.q_learning);
-            break;
-        case LH_PLANNER:
-            break;
-    }
-    return checkpoint;
-}
-
-bool convert_from_checkpoint(const limphome_checkpoint_t *checkpoint, const lh_controller *c, lh_learned *learned) {
-    if (!convert_from_policy(&checkpoint->policy, c, learned)) {
-        return false;
-    }
-    switch (checkpoint->learner) {
-        case LIMPHOME_CHECKPOINT_T_Q_LEARNING:
-            restore_q_learning(&checkpoint->q_learning, &learned->as.q_learning);
-            return learned->kind == LH_Q_LEARNING;
-        default:
-            return false;
-    }
 }

@@ -1,14 +1,12 @@
-/* Between the library's structs and what is outside: settings, messages, files. */
+/* Between the library's structs and what is outside: settings and messages. What was learned: learned.h. */
 #ifndef LIMPHOME_APP_CONVERT_H
 #define LIMPHOME_APP_CONVERT_H
 
 #include <stdbool.h>
 
 #include "limphome/controller.h"
-#include "limphome_checkpoint_t.h"
 #include "limphome_decision_t.h"
 #include "limphome_episode_t.h"
-#include "limphome_policy_t.h"
 #include "limphome_robot_state_t.h"
 #include "limphome_status_t.h"
 #include "settings.h"
@@ -30,16 +28,5 @@ limphome_episode_t convert_episode(const lh_controller *controller, const lh_sum
 
 /* Fills in how often each limit of the controller acted. */
 void convert_limits(const lh_controller *controller, limphome_status_t *status);
-
-/* What was learned after `episode` finished episodes, what is needed to use it (.policy) and to go on learning. */
-limphome_checkpoint_t convert_checkpoint(const lh_controller *controller, int32_t episode, int64_t utime,
-                                         int64_t settings_hash);
-
-/* What lh_controller_restore takes, from a policy (the rest as the controller has it) or from a checkpoint. False if it
- * is for other actuators, speeds or input ranges than the controller's, or for another learner: it would not mean the
- * same. */
-bool convert_from_policy(const limphome_policy_t *policy, const lh_controller *controller, lh_learned *learned);
-bool convert_from_checkpoint(const limphome_checkpoint_t *checkpoint, const lh_controller *controller,
-                             lh_learned *learned);
 
 #endif

@@ -4,12 +4,17 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "limphome/base/capacity.h"
+#include "limphome/learning/planner.h"
 
 enum { WIRE_ACTUATORS = 8, WIRE_UNITS = 64, WIRE_INPUTS = 18 };
+enum { WIRE_JOINTS = 3, WIRE_ACTIONS = 243, WIRE_SAMPLES = 1024, WIRE_NODES = 1200 };
 _Static_assert(LH_MAX_ACTUATORS <= WIRE_ACTUATORS, "robot_state_t carries 8 actuators");
 _Static_assert(LH_MAX_UNITS <= WIRE_UNITS, "policy_t carries 64 units");
 _Static_assert(LH_MAX_INPUTS <= WIRE_INPUTS, "policy_t carries 18 inputs");
+_Static_assert(LH_PLANNED_JOINTS == WIRE_JOINTS && LH_MOTION_PARTS == 4 && LH_STEERINGS == 9, "as planner_t has them");
+_Static_assert(LH_PLANNED_ACTIONS <= WIRE_ACTIONS, "planner_t names 243 actions");
+_Static_assert(LH_MAX_SAMPLES <= WIRE_SAMPLES, "planner_t carries 1024 samples");
+_Static_assert(LH_MAX_POSTURES <= WIRE_NODES, "planner_t carries 1200 nodes");
 
 static bool finite_doubles(const double *values, int count) {
     bool finite = true;
@@ -74,6 +79,39 @@ message_verdict message_decode_checkpoint(const void *data, size_t size, limphom
     const bool sound =
         checkpoint->learner == LIMPHOME_CHECKPOINT_T_Q_LEARNING && checkpoint->episode == checkpoint->policy.episode;
     return sound ? check_policy(&checkpoint->policy) : MESSAGE_MALFORMED;
+}
+
+static message_verdict check_planner(const limphome_planner_t *planner) {
+    if (!within(planner->num_actuators, 1, WIRE_ACTUATORS) ||
+        !within(planner->num_controlled, 1, planner->num_actuators) || planner->episode < 0 ||
+        !within(planner->num_actions, 1, WIRE_ACTIONS) || !within(planner->num_joints, 0, WIRE_JOINTS) ||
+        !within(planner->num_samples, 0, WIRE_SAMPLES) || !within(planner->num_nodes, 1, WIRE_NODES)) {
+        return MESSAGE_MALFORMED;
+    }
+    const bool finite =
+        finite_floats(planner->speed, planner->num_controlled) &&
+        finite_floats(planner->joint_low, planner->num_controlled) &&
+        finite_floats(planner->joint_high, planner->num_controlled) && finite_floats(&planner->decision_period, 1) &&
+        finite_floats(planner->kernel_low, WIRE_JOINTS) && finite_floats(planner->kernel_width, WIRE_JOINTS) &&
+        finite_floats(&planner->prior_weight, 1) && finite_floats(planner->node_low, WIRE_JOINTS) &&
+        finite_floats(planner->node_spacing, WIRE_JOINTS) && finite_floats(planner->ground, 3) &&
+        finite_floats(&planner->curiosity, 1);
+    return finite ? MESSAGE_GOOD : MESSAGE_NON_FINITE;
+}
+
+message_verdict message_decode_planner(const void *data, size_t size, limphome_planner_t *planner) {
+    if (size > INT_MAX || limphome_planner_t_decode(data, 0, (int)size, planner) != (int)size) {
+        return MESSAGE_MALFORMED;
+    }
+    return check_planner(planner);
+}
+
+message_verdict message_decode_planner_checkpoint(const void *data, size_t size,
+                                                  limphome_planner_checkpoint_t *checkpoint) {
+    if (size > INT_MAX || limphome_planner_checkpoint_t_decode(data, 0, (int)size, checkpoint) != (int)size) {
+        return MESSAGE_MALFORMED;
+    }
+    return checkpoint->episode == checkpoint->planner.episode ? check_planner(&checkpoint->planner) : MESSAGE_MALFORMED;
 }
 
 const char *message_verdict_text(message_verdict verdict) {

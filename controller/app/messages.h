@@ -5,6 +5,8 @@
 #include <stddef.h>
 
 #include "limphome_checkpoint_t.h"
+#include "limphome_planner_checkpoint_t.h"
+#include "limphome_planner_t.h"
 #include "limphome_policy_t.h"
 #include "limphome_robot_state_t.h"
 
@@ -18,6 +20,9 @@ typedef enum message_verdict {
 message_verdict message_decode_state(const void *data, size_t size, limphome_robot_state_t *state);
 message_verdict message_decode_policy(const void *data, size_t size, limphome_policy_t *policy);
 message_verdict message_decode_checkpoint(const void *data, size_t size, limphome_checkpoint_t *checkpoint);
+message_verdict message_decode_planner(const void *data, size_t size, limphome_planner_t *planner);
+message_verdict message_decode_planner_checkpoint(const void *data, size_t size,
+                                                  limphome_planner_checkpoint_t *checkpoint);
 
 /* One sentence for an error text. */
 const char *message_verdict_text(message_verdict verdict);

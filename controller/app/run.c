@@ -14,14 +14,17 @@ static int64_t hash_of(const run *r) {
 /* An evaluation goes on from the episode after the policy's, so that T of (4) and what is drawn for an episode are
  * those that more training would have met. */
 static bool open_policy(run *r, const char *path) {
-    if (!run_folder_read_policy(path, &r->policy, r->error)) {
+    if (!run_folder_read_policy(path, &r->learned, r->error)) {
         return false;
     }
-    if (r->policy.episode > LH_LAST_EPISODE - r->last) {
-        return fail_with(r->error, "%.200s: is of episode %" PRId32 ", beyond what can be counted", path,
-                         r->policy.episode);
+    if (r->learned.kind != r->config.learner.kind) {
+        return fail_with(r->error, "%.200s: is of another kind than [learner] kind", path);
     }
-    r->finished = r->policy.episode;
+    const int32_t episode = learned_episode(&r->learned);
+    if (episode > LH_LAST_EPISODE - r->last) {
+        return fail_with(r->error, "%.200s: is of episode %" PRId32 ", beyond what can be counted", path, episode);
+    }
+    r->finished = episode;
     r->last += r->finished;
     return true;
 }
@@ -36,10 +39,10 @@ static bool open_folder(run *r, const command_line *line) {
     if (!r->resuming) {
         return run_folder_create(&r->folder, line->out, r->error);
     }
-    if (!run_folder_resume(&r->folder, line->out, r->hash, &r->checkpoint, r->error)) {
+    if (!run_folder_resume(&r->folder, line->out, r->hash, &r->learned, r->error)) {
         return false;
     }
-    r->finished = r->checkpoint.episode;
+    r->finished = learned_episode(&r->learned);
     return true;
 }
 
@@ -80,13 +83,11 @@ static bool restore_learner(run *r) {
     if (!r->evaluating && !r->resuming) {
         return true;
     }
-    lh_learned learned;
-    const bool fits = r->resuming ? convert_from_checkpoint(&r->checkpoint, &r->controller, &learned)
-                                  : convert_from_policy(&r->policy, &r->controller, &learned);
-    if (!fits) {
-        return fail_with(r->error, "what was learned is for other actuators, speeds, input ranges or learners");
+    lh_learned restored;
+    if (!learned_restore(&r->learned, &r->controller, &restored)) {
+        return fail_with(r->error, "what was learned is for other actuators, speeds, ranges or periods");
     }
-    const lh_error error = lh_controller_restore(&r->controller, &learned, r->finished + 1);
+    const lh_error error = lh_controller_restore(&r->controller, &restored, r->finished + 1);
     return error == LH_OK || fail_with(r->error, "what was learned cannot be taken up: %s", lh_error_text(error));
 }
 
@@ -112,6 +113,12 @@ static void send_reset(run *r) {
     r->reset_sent = true;
 }
 
+/* What has been learned so far, as message and in r->learned. */
+static void tell_learned(run *r) {
+    learned_save(&r->learned, &r->controller, r->finished, r->utime, r->hash);
+    bus_send_policy(&r->bus, &r->learned);
+}
+
 /* An episode has ended: a row, a message, and a checkpoint where the plant is about to be reset for one. */
 static void finish_episode(run *r, const lh_summary *summary, const limphome_robot_state_t *state) {
     r->finished = summary->number;
@@ -120,9 +127,8 @@ static void finish_episode(run *r, const lh_summary *summary, const limphome_rob
     bus_send_episode(&r->bus, &episode);
     run_folder_episode(&r->folder, &episode, r->error);
     if (!r->evaluating && summary->number % r->config.task.episode.reset_every == 0) {
-        const limphome_checkpoint_t checkpoint = convert_checkpoint(&r->controller, r->finished, r->utime, r->hash);
-        bus_send_policy(&r->bus, &checkpoint.policy);
-        run_folder_checkpoint(&r->folder, &checkpoint, r->error);
+        tell_learned(r);
+        run_folder_checkpoint(&r->folder, &r->learned, r->error);
     }
 }
 
@@ -236,12 +242,11 @@ bool run_decide(run *r, const volatile sig_atomic_t *stop) {
 bool run_close(run *r, bool complete) {
     const bool failed = r->error[0] != '\0';
     if (r->learner_ready && !r->evaluating) {
-        const limphome_checkpoint_t checkpoint = convert_checkpoint(&r->controller, r->finished, r->utime, r->hash);
-        bus_send_policy(&r->bus, &checkpoint.policy);
-        run_folder_policy(&r->folder, &checkpoint.policy, r->error);
+        tell_learned(r);
+        run_folder_policy(&r->folder, &r->learned, r->error);
         /* An interrupted run is gone on with from where the plant was last reset: there alone it is repeatable. */
         if (complete) {
-            run_folder_checkpoint(&r->folder, &checkpoint, r->error);
+            run_folder_checkpoint(&r->folder, &r->learned, r->error);
         }
     }
     send_status(r, failed ? LIMPHOME_STATUS_T_FAULT : LIMPHOME_STATUS_T_FINISHED);

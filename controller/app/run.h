@@ -8,8 +8,8 @@
 #include "bus.h"
 #include "command_line.h"
 #include "fail.h"
+#include "learned.h"
 #include "limphome/controller.h"
-#include "limphome_checkpoint_t.h"
 #include "limphome_velocity_command_t.h"
 #include "run_folder.h"
 #include "session.h"
@@ -26,10 +26,9 @@ typedef struct run {
     char error[ERROR_LENGTH]; /* why it failed; "" while it has not */
 
     /* how the learner begins, once the first state has told which actuators obey */
-    bool evaluating; /* drive with `policy`, without learning */
-    bool resuming;   /* go on from `checkpoint` */
-    limphome_policy_t policy;
-    limphome_checkpoint_t checkpoint;
+    bool evaluating; /* drive with the policy in `learned`, without learning */
+    bool resuming;   /* go on from the checkpoint in `learned` */
+    learned learned; /* before and, where it is saved, by this run */
 
     bool learner_ready;
     lh_controller controller;

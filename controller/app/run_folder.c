@@ -6,9 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "messages.h"
-
-enum { LARGEST_FILE = 16384, LINE_LENGTH = 512 };
+enum { LARGEST_FILE = LEARNED_LARGEST, LINE_LENGTH = 512 };
 
 static const char csv_header[] =
     "episode,outcome,steps,duration_s,reward,reward_motion,reward_goal,reward_stability,reward_tumble,lateral_error_m,"
@@ -148,7 +146,7 @@ static bool cut_episodes(const char *path, int32_t episodes, char error[ERROR_LE
 }
 
 /* Reads and checks checkpoint/episode_NNNNNN.lcm of that number. */
-static bool read_checkpoint(const char *folder, long number, int64_t settings_hash, limphome_checkpoint_t *checkpoint,
+static bool read_checkpoint(const char *folder, long number, int64_t settings_hash, learned *l,
                             char error[ERROR_LENGTH]) {
     char name[RUN_FOLDER_PATH_LENGTH];
     char base[48];
@@ -158,26 +156,26 @@ static bool read_checkpoint(const char *folder, long number, int64_t settings_ha
     if (size < 0) {
         return false;
     }
-    const message_verdict verdict = message_decode_checkpoint(bytes, (size_t)size, checkpoint);
+    const message_verdict verdict = learned_decode_checkpoint(bytes, (size_t)size, l);
     if (verdict != MESSAGE_GOOD) {
         return fail_with(error, "%.200s: %s", name, message_verdict_text(verdict));
     }
-    if (checkpoint->settings_hash != settings_hash) {
+    if (learned_settings_hash(l) != settings_hash) {
         return fail_with(error, "%.200s: was made with other settings or another robot; it cannot be gone on with",
                          folder);
     }
-    return checkpoint->episode == number || fail_with(error, "%.200s: is of another episode", name);
+    return learned_episode(l) == number || fail_with(error, "%.200s: is of another episode", name);
 }
 
-bool run_folder_resume(run_folder *folder, const char *path, int64_t settings_hash, limphome_checkpoint_t *checkpoint,
+bool run_folder_resume(run_folder *folder, const char *path, int64_t settings_hash, learned *l,
                        char error[ERROR_LENGTH]) {
     memset(folder, 0, sizeof *folder);
     snprintf(folder->path, sizeof folder->path, "%s", path);
     char name[RUN_FOLDER_PATH_LENGTH];
     long number = -1;
     if (!join(name, path, "checkpoint", error) || (number = newest_checkpoint(name, error)) < 0 ||
-        !read_checkpoint(path, number, settings_hash, checkpoint, error) || !join(name, path, "episodes.csv", error) ||
-        !cut_episodes(name, checkpoint->episode, error)) {
+        !read_checkpoint(path, number, settings_hash, l, error) || !join(name, path, "episodes.csv", error) ||
+        !cut_episodes(name, learned_episode(l), error)) {
         return false;
     }
     folder->episodes = fopen(name, "a");
@@ -207,31 +205,26 @@ bool run_folder_episode(run_folder *folder, const limphome_episode_t *e, char er
     return fflush(folder->episodes) == 0 || fail_by_system(error, "episodes.csv");
 }
 
-bool run_folder_policy(const run_folder *folder, const limphome_policy_t *policy, char error[ERROR_LENGTH]) {
+static bool write_encoded(const char *folder, const char *name, const unsigned char *bytes, int size,
+                          char error[ERROR_LENGTH]) {
     char path[RUN_FOLDER_PATH_LENGTH];
-    unsigned char bytes[LARGEST_FILE];
-    if (folder->path[0] == '\0') {
-        return true;
-    }
-    const int size = limphome_policy_t_encode(bytes, 0, sizeof bytes, policy);
-    return join(path, folder->path, "policy.lcm", error) &&
+    return join(path, folder, name, error) &&
            (size > 0 || fail_with(error, "%.200s: does not fit %d bytes", path, LARGEST_FILE)) &&
            replace_file(path, bytes, (size_t)size, error);
 }
 
-bool run_folder_checkpoint(const run_folder *folder, const limphome_checkpoint_t *checkpoint,
-                           char error[ERROR_LENGTH]) {
-    char path[RUN_FOLDER_PATH_LENGTH];
-    char base[40];
+bool run_folder_policy(const run_folder *folder, const learned *l, char error[ERROR_LENGTH]) {
     unsigned char bytes[LARGEST_FILE];
-    if (folder->path[0] == '\0') {
-        return true;
-    }
-    snprintf(base, sizeof base, "checkpoint/episode_%06d.lcm", checkpoint->episode);
-    const int size = limphome_checkpoint_t_encode(bytes, 0, sizeof bytes, checkpoint);
-    return join(path, folder->path, base, error) &&
-           (size > 0 || fail_with(error, "%.200s: does not fit %d bytes", path, LARGEST_FILE)) &&
-           replace_file(path, bytes, (size_t)size, error);
+    return folder->path[0] == '\0' ||
+           write_encoded(folder->path, "policy.lcm", bytes, learned_encode_policy(l, bytes, sizeof bytes), error);
+}
+
+bool run_folder_checkpoint(const run_folder *folder, const learned *l, char error[ERROR_LENGTH]) {
+    char name[40];
+    unsigned char bytes[LARGEST_FILE];
+    snprintf(name, sizeof name, "checkpoint/episode_%06d.lcm", learned_episode(l));
+    return folder->path[0] == '\0' ||
+           write_encoded(folder->path, name, bytes, learned_encode_checkpoint(l, bytes, sizeof bytes), error);
 }
 
 bool run_folder_close(run_folder *folder, char error[ERROR_LENGTH]) {
@@ -240,12 +233,12 @@ bool run_folder_close(run_folder *folder, char error[ERROR_LENGTH]) {
     return good || fail_by_system(error, "episodes.csv");
 }
 
-bool run_folder_read_policy(const char *path, limphome_policy_t *policy, char error[ERROR_LENGTH]) {
+bool run_folder_read_policy(const char *path, learned *l, char error[ERROR_LENGTH]) {
     unsigned char bytes[LARGEST_FILE];
     const long size = read_file(path, bytes, error);
     if (size < 0) {
         return false;
     }
-    const message_verdict verdict = message_decode_policy(bytes, (size_t)size, policy);
+    const message_verdict verdict = learned_decode_policy(bytes, (size_t)size, l);
     return verdict == MESSAGE_GOOD || fail_with(error, "%.200s: %s", path, message_verdict_text(verdict));
 }

@@ -7,9 +7,8 @@
 #include <stdio.h>
 
 #include "fail.h"
-#include "limphome_checkpoint_t.h"
+#include "learned.h"
 #include "limphome_episode_t.h"
-#include "limphome_policy_t.h"
 
 enum { RUN_FOLDER_PATH_LENGTH = 512 };
 
@@ -26,22 +25,22 @@ bool run_folder_create(run_folder *folder, const char *path, char error[ERROR_LE
 
 /* Goes on with an existing folder: finds the newest checkpoint, which must be of `settings_hash`, and cuts episodes.csv
  * back to its episodes. */
-bool run_folder_resume(run_folder *folder, const char *path, int64_t settings_hash, limphome_checkpoint_t *checkpoint,
+bool run_folder_resume(run_folder *folder, const char *path, int64_t settings_hash, learned *l,
                        char error[ERROR_LENGTH]);
 
 /* Adds a row to episodes.csv and flushes it. */
 bool run_folder_episode(run_folder *folder, const limphome_episode_t *episode, char error[ERROR_LENGTH]);
 
 /* Writes policy.lcm. */
-bool run_folder_policy(const run_folder *folder, const limphome_policy_t *policy, char error[ERROR_LENGTH]);
+bool run_folder_policy(const run_folder *folder, const learned *l, char error[ERROR_LENGTH]);
 
 /* Writes checkpoint/episode_NNNNNN.lcm after the episodes it has learned from. */
-bool run_folder_checkpoint(const run_folder *folder, const limphome_checkpoint_t *checkpoint, char error[ERROR_LENGTH]);
+bool run_folder_checkpoint(const run_folder *folder, const learned *l, char error[ERROR_LENGTH]);
 
 /* Closes episodes.csv; false if it is not complete. */
 bool run_folder_close(run_folder *folder, char error[ERROR_LENGTH]);
 
 /* Reads a policy file written by run_folder_policy. */
-bool run_folder_read_policy(const char *path, limphome_policy_t *policy, char error[ERROR_LENGTH]);
+bool run_folder_read_policy(const char *path, learned *l, char error[ERROR_LENGTH]);
 
 #endif

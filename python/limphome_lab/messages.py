@@ -6,13 +6,14 @@ from limphome import (
     decision_t,
     episode_t,
     ground_truth_t,
+    planner_t,
     policy_t,
     reset_request_t,
     robot_state_t,
     status_t,
     velocity_command_t,
 )
-from limphome_lab.channels import COMMAND, DECISION, EPISODE, POLICY, RESET, STATE, STATUS, TRUTH
+from limphome_lab.channels import COMMAND, DECISION, EPISODE, PLANNER, POLICY, RESET, STATE, STATUS, TRUTH
 
 TYPES = {
     STATE: robot_state_t,
@@ -22,6 +23,7 @@ TYPES = {
     DECISION: decision_t,
     EPISODE: episode_t,
     POLICY: policy_t,
+    PLANNER: planner_t,
     STATUS: status_t,
 }
 

@@ -1,4 +1,4 @@
-/* Between settings, messages and the library: nothing is lost or mixed up, and a policy fits only its own robot. */
+/* Between settings, messages and the library: nothing is lost or mixed up. */
 #include <string.h>
 
 #include "convert.h"
@@ -54,8 +54,41 @@ START_TEST(default_settings_are_the_librarys_defaults) {
     SAME(learner.q_learning.network.width_floor);
     SAME(learner.q_learning.network.weight_limit);
     SAME(learner.q_learning.network.exact_gradient);
+    SAME(learner.planner.decision_period);
+    SAME(learner.planner.mechanics);
+    SAME(learner.planner.steering);
+    SAME(learner.planner.unsafe);
+    SAME(learner.planner.curiosity);
+    SAME(learner.planner.curiosity_decay);
+    SAME(learner.planner.random_share);
+    SAME(learner.planner.candidates);
+    SAME(learner.planner.imagined);
+    SAME(learner.planner.backups);
 #undef SAME
     ck_assert_int_eq(lh_config_validate(&config), LH_OK);
+}
+END_TEST
+
+/* One key is the discount rate of both learners, and its default the paper's. */
+START_TEST(default_ini_is_a_planner_with_the_librarys_discount_rate) {
+    settings s = settings_default();
+    char error[ERROR_LENGTH] = "";
+    ck_assert_msg(settings_read(&s, CONFIG_DIR "/default.ini", error), "%s", error);
+    const lh_config config = convert_config(&s);
+    ck_assert_int_eq(config.learner.kind, LH_PLANNER);
+    ck_assert_float_eq(config.learner.planner.discount_rate, lh_planner_config_default().discount_rate);
+    ck_assert_int_eq(lh_config_validate(&config), LH_OK);
+}
+END_TEST
+
+START_TEST(each_choice_of_a_planner_is_the_same_in_the_library) {
+    settings s = settings_default();
+    char error[ERROR_LENGTH] = "";
+    ck_assert(settings_set(&s, "episode.decision_period_s=0.25", error));
+    ck_assert(settings_set(&s, "planner.mechanics=none", error));
+    const lh_planner_config config = convert_config(&s).learner.planner;
+    ck_assert_float_eq(config.decision_period, 0.25F);
+    ck_assert(!config.mechanics);
 }
 END_TEST
 
@@ -72,65 +105,6 @@ START_TEST(a_path_is_the_same_in_the_library) {
     ck_assert_float_eq(path.waypoint[0].y, 5);
     ck_assert_float_eq(path.waypoint[1].x, -3);
     ck_assert_float_eq(path.waypoint[1].y, 4);
-}
-END_TEST
-
-START_TEST(a_policy_gives_back_the_network) {
-    make_controller();
-    const limphome_policy_t policy = convert_checkpoint(&controller, 7, 0, 99).policy;
-    ck_assert_int_eq(policy.episode, 7);
-    ck_assert_int_eq(policy.num_inputs, 10);
-    ck_assert_int_eq(policy.controlled[0], 1);
-    ck_assert_float_eq(policy.input_low[0], -1000);
-    ck_assert_float_eq(policy.input_high[2], 1.2F);
-    lh_learned learned;
-    lh_learned held;
-    lh_learner_save(&controller.learner, &held);
-    controller.learner.as.q_learning.network.weight[0] = 5;
-    ck_assert(convert_from_policy(&policy, &controller, &learned));
-    ck_assert_mem_eq(&learned.as, &held.as, sizeof learned.as);
-}
-END_TEST
-
-START_TEST(a_checkpoint_gives_back_all_that_was_learned) {
-    make_controller();
-    lh_q_learning *learner = &controller.learner.as.q_learning;
-    learner->held = (lh_held){1, 2, 3};
-    learner->floored = 4;
-    lh_learned held;
-    lh_learner_save(&controller.learner, &held);
-    const limphome_checkpoint_t checkpoint = convert_checkpoint(&controller, 7, 0, 99);
-    ck_assert_int_eq(checkpoint.episode, 7);
-    ck_assert_int_eq(checkpoint.settings_hash, 99);
-    make_controller();
-    learner->random.s[2] ^= 1;
-    lh_learned learned;
-    ck_assert(convert_from_checkpoint(&checkpoint, &controller, &learned));
-    ck_assert_mem_eq(&learned.as, &held.as, sizeof learned.as);
-}
-END_TEST
-
-START_TEST(a_checkpoint_of_another_learner_is_refused) {
-    make_controller();
-    limphome_checkpoint_t checkpoint = convert_checkpoint(&controller, 7, 0, 99);
-    checkpoint.learner = 7;
-    lh_learned learned;
-    ck_assert(!convert_from_checkpoint(&checkpoint, &controller, &learned));
-}
-END_TEST
-
-START_TEST(a_policy_of_another_robot_is_refused) {
-    make_controller();
-    lh_learned learned;
-    limphome_policy_t policy = convert_checkpoint(&controller, 7, 0, 99).policy;
-    policy.controlled[0] = 0;
-    ck_assert(!convert_from_policy(&policy, &controller, &learned));
-    policy = convert_checkpoint(&controller, 7, 0, 99).policy;
-    policy.speed[1] = 0.2F;
-    ck_assert(!convert_from_policy(&policy, &controller, &learned));
-    policy = convert_checkpoint(&controller, 7, 0, 99).policy;
-    policy.input_high[3] = 1;
-    ck_assert(!convert_from_policy(&policy, &controller, &learned));
 }
 END_TEST
 
@@ -231,11 +205,9 @@ END_TEST
 int main(void) {
     TCase *cases = tcase_create("convert");
     tcase_add_test(cases, default_settings_are_the_librarys_defaults);
+    tcase_add_test(cases, default_ini_is_a_planner_with_the_librarys_discount_rate);
+    tcase_add_test(cases, each_choice_of_a_planner_is_the_same_in_the_library);
     tcase_add_test(cases, a_path_is_the_same_in_the_library);
-    tcase_add_test(cases, a_policy_gives_back_the_network);
-    tcase_add_test(cases, a_checkpoint_gives_back_all_that_was_learned);
-    tcase_add_test(cases, a_checkpoint_of_another_learner_is_refused);
-    tcase_add_test(cases, a_policy_of_another_robot_is_refused);
     tcase_add_test(cases, each_limit_is_told);
     tcase_add_test(cases, a_decision_tells_the_inputs_of_state_and_action);
     tcase_add_test(cases, an_episode_tells_its_line);

@@ -6,7 +6,7 @@
 #include "messages.h"
 #include "suite.h"
 
-enum { SIZE = 16384 };
+enum { SIZE = 65536 };
 
 static limphome_robot_state_t good_state(void) {
     limphome_robot_state_t state;
@@ -25,6 +25,34 @@ static limphome_policy_t good_policy(void) {
     policy.num_units = 50;
     policy.num_inputs = 10;
     return policy;
+}
+
+static limphome_planner_t good_planner(void) {
+    limphome_planner_t planner;
+    memset(&planner, 0, sizeof planner);
+    planner.num_actuators = 5;
+    planner.num_controlled = 4;
+    planner.num_actions = 81;
+    planner.num_joints = 3;
+    planner.num_samples = 1024;
+    planner.num_nodes = 1200;
+    return planner;
+}
+
+static message_verdict judge_planner(const limphome_planner_t *planner, int surplus) {
+    static unsigned char bytes[SIZE];
+    static limphome_planner_t decoded;
+    const int size = limphome_planner_t_encode(bytes, 0, SIZE, planner);
+    return message_decode_planner(bytes, (size_t)size + (size_t)surplus, &decoded);
+}
+
+static message_verdict judge_planner_checkpoint(const limphome_planner_t *planner, int32_t episode, int surplus) {
+    static unsigned char bytes[SIZE];
+    static limphome_planner_checkpoint_t checkpoint, decoded;
+    checkpoint.planner = *planner;
+    checkpoint.episode = episode;
+    const int size = limphome_planner_checkpoint_t_encode(bytes, 0, SIZE, &checkpoint);
+    return message_decode_planner_checkpoint(bytes, (size_t)size + (size_t)surplus, &decoded);
 }
 
 static message_verdict judge_state(const limphome_robot_state_t *state, int surplus) {
@@ -46,6 +74,9 @@ START_TEST(good_messages_pass) {
     const limphome_policy_t policy = good_policy();
     ck_assert_int_eq(judge_state(&state, 0), MESSAGE_GOOD);
     ck_assert_int_eq(judge_policy(&policy, 0), MESSAGE_GOOD);
+    const limphome_planner_t planner = good_planner();
+    ck_assert_int_eq(judge_planner(&planner, 0), MESSAGE_GOOD);
+    ck_assert_int_eq(judge_planner_checkpoint(&planner, 0, 0), MESSAGE_GOOD);
 }
 END_TEST
 
@@ -56,6 +87,11 @@ START_TEST(length_must_be_exact) {
     ck_assert_int_eq(judge_state(&state, -1), MESSAGE_MALFORMED);
     ck_assert_int_eq(judge_policy(&policy, 1), MESSAGE_MALFORMED);
     ck_assert_int_eq(judge_policy(&policy, -1), MESSAGE_MALFORMED);
+    const limphome_planner_t planner = good_planner();
+    for (int surplus = -1; surplus <= 1; surplus += 2) {
+        ck_assert_int_eq(judge_planner(&planner, surplus), MESSAGE_MALFORMED);
+        ck_assert_int_eq(judge_planner_checkpoint(&planner, 0, surplus), MESSAGE_MALFORMED);
+    }
 }
 END_TEST
 
@@ -87,6 +123,45 @@ START_TEST(counts_must_fit) {
     policy = good_policy();
     policy.num_controlled = 6;
     ck_assert_int_eq(judge_policy(&policy, 0), MESSAGE_MALFORMED);
+}
+END_TEST
+
+START_TEST(counts_of_a_planner_must_fit) {
+    limphome_planner_t planner = good_planner();
+    const struct {
+        int32_t *count;
+        int32_t bad;
+    } cases[] = {
+        {&planner.num_actuators, 0},  {&planner.num_actuators, 9}, {&planner.num_controlled, 0},
+        {&planner.num_controlled, 6}, {&planner.num_actions, 0},   {&planner.num_actions, 244},
+        {&planner.num_joints, -1},    {&planner.num_joints, 4},    {&planner.num_samples, -1},
+        {&planner.num_samples, 1025}, {&planner.num_nodes, 0},     {&planner.num_nodes, 1201},
+        {&planner.episode, -1},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        planner = good_planner();
+        *cases[i].count = cases[i].bad;
+        ck_assert_int_eq(judge_planner(&planner, 0), MESSAGE_MALFORMED);
+        ck_assert_int_eq(judge_planner_checkpoint(&planner, planner.episode, 0), MESSAGE_MALFORMED);
+    }
+    planner = good_planner();
+    ck_assert_int_eq(judge_planner_checkpoint(&planner, 1, 0), MESSAGE_MALFORMED); /* two that differ */
+}
+END_TEST
+
+START_TEST(numbers_of_a_planner_must_be_finite) {
+    limphome_planner_t planner = good_planner();
+    planner.speed[7] = planner.joint_low[4] = planner.joint_high[4] = NAN; /* not used: four are controlled */
+    ck_assert_int_eq(judge_planner(&planner, 0), MESSAGE_GOOD);
+    float *const used[] = {&planner.speed[3],        &planner.joint_low[0],  &planner.joint_high[3],
+                           &planner.decision_period, &planner.kernel_low[0], &planner.kernel_width[2],
+                           &planner.prior_weight,    &planner.node_low[1],   &planner.node_spacing[2],
+                           &planner.ground[2],       &planner.curiosity};
+    for (size_t i = 0; i < sizeof used / sizeof used[0]; i++) {
+        planner = good_planner();
+        *used[i] = i % 2 == 0 ? NAN : INFINITY;
+        ck_assert_int_eq(judge_planner(&planner, 0), MESSAGE_NON_FINITE);
+    }
 }
 END_TEST
 
@@ -134,6 +209,8 @@ int main(void) {
     tcase_add_test(cases, length_must_be_exact);
     tcase_add_test(cases, another_type_is_malformed);
     tcase_add_test(cases, counts_must_fit);
+    tcase_add_test(cases, counts_of_a_planner_must_fit);
+    tcase_add_test(cases, numbers_of_a_planner_must_be_finite);
     tcase_add_test(cases, numbers_must_be_finite_where_they_are_used);
     tcase_add_test(cases, any_bytes_are_survived);
     return run_suite("messages", cases);

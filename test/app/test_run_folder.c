@@ -35,26 +35,43 @@ static limphome_episode_t episode(int32_t number) {
                                 .temperature = 0.25};
 }
 
-static limphome_checkpoint_t checkpoint(int32_t after) {
-    limphome_checkpoint_t c;
-    memset(&c, 0, sizeof c);
-    c.settings_hash = SETTINGS;
-    c.episode = c.policy.episode = after;
-    c.policy.num_actuators = 5;
-    c.policy.num_controlled = 4;
-    c.policy.num_units = 50;
-    c.policy.num_inputs = 10;
-    c.policy.weight[3] = 0.5F;
-    c.q_learning.random_state[1] = 99;
-    return c;
+static learned learned_after(int32_t after) {
+    learned l;
+    memset(&l, 0, sizeof l);
+    l.kind = LH_Q_LEARNING;
+    limphome_checkpoint_t *c = &l.as.q_learning;
+    c->settings_hash = SETTINGS;
+    c->episode = c->policy.episode = after;
+    c->policy.num_actuators = 5;
+    c->policy.num_controlled = 4;
+    c->policy.num_units = 50;
+    c->policy.num_inputs = 10;
+    c->policy.weight[3] = 0.5F;
+    c->q_learning.random_state[1] = 99;
+    return l;
+}
+
+static learned planned_after(int32_t after) {
+    learned l;
+    memset(&l, 0, sizeof l);
+    l.kind = LH_PLANNER;
+    limphome_planner_checkpoint_t *c = &l.as.planner;
+    c->settings_hash = SETTINGS;
+    c->episode = c->planner.episode = after;
+    c->planner.num_actuators = 5;
+    c->planner.num_controlled = 4;
+    c->planner.num_actions = 81;
+    c->planner.num_nodes = 1200;
+    c->planner.node_value[1199][8] = -7;
+    return l;
 }
 
 /* Compares them as messages: what lies between the fields of a struct is nobody's. */
-static void expect_same(const limphome_checkpoint_t *actual, const limphome_checkpoint_t *expected) {
-    static unsigned char bytes[2][65536];
-    const int size = limphome_checkpoint_t_encode(bytes[0], 0, sizeof bytes[0], actual);
+static void expect_same(const learned *actual, const learned *expected) {
+    static unsigned char bytes[2][LEARNED_LARGEST];
+    const int size = learned_encode_checkpoint(actual, bytes[0], sizeof bytes[0]);
     ck_assert_int_gt(size, 0);
-    ck_assert_int_eq(limphome_checkpoint_t_encode(bytes[1], 0, sizeof bytes[1], expected), size);
+    ck_assert_int_eq(learned_encode_checkpoint(expected, bytes[1], sizeof bytes[1]), size);
     ck_assert_mem_eq(bytes[0], bytes[1], (size_t)size);
 }
 
@@ -82,8 +99,8 @@ static void write_run(int32_t episodes) {
     for (int32_t i = 1; i <= episodes; i++) {
         const limphome_episode_t e = episode(i);
         ck_assert(run_folder_episode(&folder, &e, error));
-        const limphome_checkpoint_t c = checkpoint(i);
-        ck_assert(i % 10 != 0 || run_folder_checkpoint(&folder, &c, error));
+        const learned l = learned_after(i);
+        ck_assert(i % 10 != 0 || run_folder_checkpoint(&folder, &l, error));
     }
     ck_assert(run_folder_close(&folder, error));
 }
@@ -112,10 +129,10 @@ END_TEST
 START_TEST(resume_takes_the_newest_checkpoint_and_cuts_the_rows) {
     write_run(27);
     run_folder folder;
-    limphome_checkpoint_t c;
-    const limphome_checkpoint_t expected = checkpoint(20);
-    ck_assert(run_folder_resume(&folder, folder_name, SETTINGS, &c, error));
-    expect_same(&c, &expected);
+    learned l;
+    const learned expected = learned_after(20);
+    ck_assert(run_folder_resume(&folder, folder_name, SETTINGS, &l, error));
+    expect_same(&l, &expected);
     const limphome_episode_t e = episode(21);
     ck_assert(run_folder_episode(&folder, &e, error));
     ck_assert(run_folder_close(&folder, error));
@@ -126,16 +143,16 @@ END_TEST
 START_TEST(resume_refuses_what_is_damaged) {
     write_run(27);
     run_folder folder;
-    limphome_checkpoint_t c;
+    learned l;
     char path[256];
     file_path(path, "checkpoint/episode_000020.lcm");
     ck_assert_int_eq(truncate(path, 100), 0);
-    ck_assert(!run_folder_resume(&folder, folder_name, SETTINGS, &c, error));
+    ck_assert(!run_folder_resume(&folder, folder_name, SETTINGS, &l, error));
     ck_assert_int_eq(count_lines("episodes.csv"), 1 + 27); /* nothing is lost */
     unlink(path);
     file_path(path, "episodes.csv");
     ck_assert_int_eq(truncate(path, 200), 0);
-    ck_assert(!run_folder_resume(&folder, folder_name, SETTINGS, &c, error));
+    ck_assert(!run_folder_resume(&folder, folder_name, SETTINGS, &l, error));
     file_path(path, "episodes.csv.new");
     ck_assert_int_ne(access(path, F_OK), 0); /* nothing is left of the attempt */
 }
@@ -144,8 +161,8 @@ END_TEST
 START_TEST(resume_with_other_settings_is_refused_and_loses_nothing) {
     write_run(27);
     run_folder folder;
-    limphome_checkpoint_t c;
-    ck_assert(!run_folder_resume(&folder, folder_name, SETTINGS + 1, &c, error));
+    learned l;
+    ck_assert(!run_folder_resume(&folder, folder_name, SETTINGS + 1, &l, error));
     ck_assert_ptr_nonnull(strstr(error, "other settings"));
     ck_assert_int_eq(count_lines("episodes.csv"), 1 + 27);
 }
@@ -154,37 +171,60 @@ END_TEST
 START_TEST(resume_without_checkpoint_is_refused) {
     write_run(5);
     run_folder folder;
-    limphome_checkpoint_t c;
-    ck_assert(!run_folder_resume(&folder, folder_name, SETTINGS, &c, error));
-    ck_assert(!run_folder_resume(&folder, "/nowhere", SETTINGS, &c, error));
+    learned l;
+    ck_assert(!run_folder_resume(&folder, folder_name, SETTINGS, &l, error));
+    ck_assert(!run_folder_resume(&folder, "/nowhere", SETTINGS, &l, error));
 }
 END_TEST
 
 START_TEST(a_policy_reads_back) {
+    const learned written[] = {learned_after(10), planned_after(10)};
     run_folder folder;
     ck_assert(run_folder_create(&folder, folder_name, error));
-    const limphome_checkpoint_t c = checkpoint(10);
-    ck_assert(run_folder_policy(&folder, &c.policy, error));
-    ck_assert(run_folder_close(&folder, error));
     char path[256];
     file_path(path, "policy.lcm");
-    limphome_policy_t policy;
-    ck_assert(run_folder_read_policy(path, &policy, error));
-    ck_assert_mem_eq(&policy, &c.policy, sizeof policy);
+    learned l;
+    for (int i = 0; i < 2; i++) {
+        ck_assert(run_folder_policy(&folder, &written[i], error));
+        ck_assert(run_folder_read_policy(path, &l, error));
+        ck_assert_int_eq(l.kind, written[i].kind);
+        ck_assert(l.policy_only);
+        static unsigned char bytes[2][LEARNED_LARGEST];
+        const int size = learned_encode_policy(&written[i], bytes[0], LEARNED_LARGEST);
+        ck_assert_int_eq(learned_encode_policy(&l, bytes[1], LEARNED_LARGEST), size);
+        ck_assert_mem_eq(bytes[0], bytes[1], (size_t)size);
+    }
+    ck_assert(run_folder_close(&folder, error));
     file_path(path, "episodes.csv");
-    ck_assert(!run_folder_read_policy(path, &policy, error));
-    ck_assert(!run_folder_read_policy("/nowhere", &policy, error));
+    ck_assert(!run_folder_read_policy(path, &l, error));
+    ck_assert(!run_folder_read_policy("/nowhere", &l, error));
+}
+END_TEST
+
+START_TEST(a_planner_is_gone_on_with) {
+    run_folder folder;
+    ck_assert(run_folder_create(&folder, folder_name, error));
+    const limphome_episode_t e = episode(1);
+    const learned expected = planned_after(1);
+    ck_assert(run_folder_episode(&folder, &e, error));
+    ck_assert(run_folder_checkpoint(&folder, &expected, error));
+    ck_assert(run_folder_close(&folder, error));
+    learned l;
+    ck_assert(!run_folder_resume(&folder, folder_name, SETTINGS + 1, &l, error));
+    ck_assert(run_folder_resume(&folder, folder_name, SETTINGS, &l, error));
+    ck_assert(run_folder_close(&folder, error));
+    expect_same(&l, &expected);
 }
 END_TEST
 
 START_TEST(no_folder_writes_nothing) {
     run_folder folder;
     const limphome_episode_t e = episode(1);
-    const limphome_checkpoint_t c = checkpoint(1);
+    const learned l = learned_after(1);
     ck_assert(run_folder_create(&folder, NULL, error));
     ck_assert(run_folder_episode(&folder, &e, error));
-    ck_assert(run_folder_checkpoint(&folder, &c, error));
-    ck_assert(run_folder_policy(&folder, &c.policy, error));
+    ck_assert(run_folder_checkpoint(&folder, &l, error));
+    ck_assert(run_folder_policy(&folder, &l, error));
     ck_assert(run_folder_close(&folder, error));
 }
 END_TEST
@@ -215,6 +255,7 @@ int main(void) {
     tcase_add_test(cases, resume_with_other_settings_is_refused_and_loses_nothing);
     tcase_add_test(cases, resume_without_checkpoint_is_refused);
     tcase_add_test(cases, a_policy_reads_back);
+    tcase_add_test(cases, a_planner_is_gone_on_with);
     tcase_add_test(cases, no_folder_writes_nothing);
     tcase_add_test(cases, a_place_that_cannot_be_written_is_refused);
     tcase_add_test(cases, the_reason_is_told_however_long_the_path);

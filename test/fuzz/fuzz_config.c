@@ -23,6 +23,7 @@ static void make_bools(lh_config *config) {
     make_bool(&config->learner.greedy);
     make_bool(&config->task.reward.heading_error);
     make_bool(&config->learner.q_learning.network.exact_gradient);
+    make_bool(&config->learner.planner.mechanics);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
@@ -33,6 +34,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     given.robot = crawler_robot();
     given.controlled = crawler_controlled();
     fuzz_input in = {data, size};
+    given.config.learner.kind = (fuzz_byte(&in) & 1) != 0 ? LH_PLANNER : LH_Q_LEARNING;
     fuzz_patch(&in, &given, sizeof given, sizeof(float));
     make_bools(&given.config);
     if (lh_controller_init(&controller, &given.config, &given.robot, &given.controlled) == LH_OK) {

@@ -5,29 +5,30 @@
 
 #include "convert.h"
 #include "crawler.h"
+#include "learned.h"
 #include "messages.h"
 #include "sound.h"
 
-enum { LARGEST = 8192 };
+enum { LARGEST = LEARNED_LARGEST };
 enum kind { STATE, POLICY, CHECKPOINT, KINDS };
 
 static lh_controller controller;
+static learned saved;
 
-static void start(void) {
-    const lh_config config = lh_config_default();
-    const lh_robot robot = crawler_robot();
-    const lh_controlled controlled = crawler_controlled();
-    FUZZ_EXPECT(lh_controller_init(&controller, &config, &robot, &controlled) == LH_OK);
-}
-
-/* Two steps of a controller that has gone on from `learned`, if that was good. */
-static void expect_sound_steps(const lh_learned *learned, bool good, int32_t episode) {
-    if (good) {
-        lh_controller_restore(&controller, learned, episode);
+/* Makes `controller` one of that kind that has learned nothing; a planner plans when it is made, so that is done once.
+ */
+static void start(lh_learner_kind kind) {
+    static lh_controller fresh[2];
+    static bool made[2];
+    if (!made[kind]) {
+        lh_config config = lh_config_default();
+        config.learner.kind = kind;
+        const lh_robot robot = crawler_robot();
+        const lh_controlled controlled = crawler_controlled();
+        FUZZ_EXPECT(lh_controller_init(&fresh[kind], &config, &robot, &controlled) == LH_OK);
+        made[kind] = true;
     }
-    const lh_state state = crawler_state(0.0f, 0.0f, 1.5f);
-    fuzz_step(&controller, &state);
-    fuzz_step(&controller, &state);
+    memcpy(&controller, &fresh[kind], sizeof controller);
 }
 
 static void decode_state(const uint8_t *bytes, size_t size) {
@@ -48,24 +49,31 @@ static void decode_state(const uint8_t *bytes, size_t size) {
     }
 }
 
+/* Two steps of a controller that has gone on from `saved`, if that fits. */
+static void expect_sound_steps(void) {
+    static lh_learned restored;
+    if (learned_restore(&saved, &controller, &restored)) {
+        lh_controller_restore(&controller, &restored, learned_episode(&saved));
+    }
+    const lh_state state = crawler_state(0.0f, 0.0f, 1.5f);
+    fuzz_step(&controller, &state);
+    fuzz_step(&controller, &state);
+}
+
 static void decode_policy(const uint8_t *bytes, size_t size) {
-    limphome_policy_t policy;
-    if (message_decode_policy(bytes, size, &policy) == MESSAGE_GOOD) {
-        lh_learned learned;
-        expect_sound_steps(&learned, convert_from_policy(&policy, &controller, &learned), policy.episode);
-        uint8_t again[LARGEST];
-        FUZZ_EXPECT(limphome_policy_t_encode(again, 0, (int)size, &policy) == (int)size);
+    if (learned_decode_policy(bytes, size, &saved) == MESSAGE_GOOD) {
+        expect_sound_steps();
+        static uint8_t again[LARGEST];
+        FUZZ_EXPECT(learned_encode_policy(&saved, again, (int)size) == (int)size);
         FUZZ_EXPECT(memcmp(again, bytes, size) == 0);
     }
 }
 
 static void decode_checkpoint(const uint8_t *bytes, size_t size) {
-    limphome_checkpoint_t checkpoint;
-    if (message_decode_checkpoint(bytes, size, &checkpoint) == MESSAGE_GOOD) {
-        lh_learned learned;
-        expect_sound_steps(&learned, convert_from_checkpoint(&checkpoint, &controller, &learned), checkpoint.episode);
-        uint8_t again[LARGEST];
-        FUZZ_EXPECT(limphome_checkpoint_t_encode(again, 0, (int)size, &checkpoint) == (int)size);
+    if (learned_decode_checkpoint(bytes, size, &saved) == MESSAGE_GOOD) {
+        expect_sound_steps();
+        static uint8_t again[LARGEST];
+        FUZZ_EXPECT(learned_encode_checkpoint(&saved, again, (int)size) == (int)size);
         FUZZ_EXPECT(memcmp(again, bytes, size) == 0);
     }
 }
@@ -73,17 +81,17 @@ static void decode_checkpoint(const uint8_t *bytes, size_t size) {
 /* A message that is accepted. */
 static size_t good_message(enum kind kind, uint8_t bytes[LARGEST]) {
     const limphome_robot_state_t state = {.num_actuators = 5, .orientation = {1}};
-    const limphome_checkpoint_t checkpoint = convert_checkpoint(&controller, 7, 0, 99);
+    learned_save(&saved, &controller, 7, 0, 99);
     int size = 0;
     switch (kind) {
         case STATE:
             size = limphome_robot_state_t_encode(bytes, 0, LARGEST, &state);
             break;
         case POLICY:
-            size = limphome_policy_t_encode(bytes, 0, LARGEST, &checkpoint.policy);
+            size = learned_encode_policy(&saved, bytes, LARGEST);
             break;
         default:
-            size = limphome_checkpoint_t_encode(bytes, 0, LARGEST, &checkpoint);
+            size = learned_encode_checkpoint(&saved, bytes, LARGEST);
             break;
     }
     FUZZ_EXPECT(size > 0);
@@ -92,15 +100,16 @@ static size_t good_message(enum kind kind, uint8_t bytes[LARGEST]) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static void (*const decode[KINDS])(const uint8_t *, size_t) = {decode_state, decode_policy, decode_checkpoint};
-    start();
     fuzz_input in = {data, size};
     const uint8_t choice = fuzz_byte(&in);
-    const enum kind kind = choice % KINDS;
+    start((choice & 32) != 0 ? LH_PLANNER : LH_Q_LEARNING);
+    const enum kind kind = (choice & 31) % KINDS;
     if (choice & 128) { /* the bytes as they are */
         decode[kind](in.data, in.size);
         return 0;
     }
-    uint8_t bytes[LARGEST] = {0};
+    static uint8_t bytes[LARGEST];
+    memset(bytes, 0, sizeof bytes);
     size_t length = good_message(kind, bytes);
     if (choice & 64) { /* of another length */
         length = (length + (size_t)fuzz_byte(&in) - 128) % LARGEST;

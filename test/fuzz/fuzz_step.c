@@ -25,10 +25,23 @@ static lh_config varied(uint8_t choices) {
     return config;
 }
 
+static lh_learner_config varied_planner(const lh_learner_config *standard, uint8_t choices) {
+    lh_learner_config config = *standard;
+    config.kind = (choices & 1) != 0 ? LH_PLANNER : LH_Q_LEARNING;
+    config.planner.mechanics = (choices & 2) != 0;
+    config.planner.candidates = (choices & 4) != 0 ? 1 : 10;
+    config.planner.curiosity = (choices & 8) != 0 ? LH_PLANNER_WEIGHT_MAX : 0.3f;
+    config.planner.steering = (choices & 16) != 0 ? LH_PLANNER_WEIGHT_MAX : 1.5f;
+    config.planner.random_share = (choices & 32) != 0 ? 1.0f : 0.02f;
+    config.planner.discount_rate = (choices & 64) != 0 ? LH_DISCOUNT_RATE_MAX : 0.99f;
+    return config;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static lh_controller controller;
     fuzz_input in = {data, size};
     lh_config config = varied(fuzz_byte(&in));
+    config.learner = varied_planner(&config.learner, fuzz_byte(&in));
     config.task.path = varied_path(&in);
     const lh_robot robot = crawler_robot();
     const lh_controlled controlled = crawler_controlled();

@@ -17,6 +17,16 @@ static bool finite_reward(const lh_reward *reward) {
     return lh_finite(lh_reward_total(reward));
 }
 
+/* What it holds can be saved and taken up again: all of it is in range. */
+static void expect_sound_planner(const lh_planner *planner) {
+    static lh_planner other;
+    static lh_planner_learned learned;
+    memcpy(&other, planner, sizeof other);
+    lh_planner_save(planner, &learned);
+    FUZZ_EXPECT(lh_planner_restore(&other, &learned) == LH_OK);
+    FUZZ_EXPECT(planner->action >= 0 && planner->action < planner->planned.num_actions);
+}
+
 /* What each kind of learner keeps to, beside what all do. */
 static void expect_sound_learner(const lh_learner *learner, int32_t episode) {
     switch (learner->kind) {
@@ -26,6 +36,10 @@ static void expect_sound_learner(const lh_learner *learner, int32_t episode) {
             FUZZ_EXPECT(lh_network_validate(&kind->network, &kind->config.network) == LH_OK);
             break;
         }
+        case LH_PLANNER:
+            FUZZ_EXPECT(lh_learner_temperature(learner, episode) == 0.0f);
+            expect_sound_planner(&learner->as.planner);
+            break;
     }
 }
 

@@ -5,8 +5,8 @@
 #include "input.h"
 #include "limphome/limphome.h"
 
-/* One step: refused with nothing changed, or with a decision that is finite and within its ranges, and a network
- * that lh_network_validate accepts. */
+/* One step: refused with nothing changed, or with a decision that is finite and within its ranges, and a learner
+ * that keeps to what its kind does: a network that lh_network_validate accepts, a planner that can be restored. */
 void fuzz_step(lh_controller *controller, const lh_state *state);
 
 /* Steps from the state `good` with words overwritten, until the input is used up. */

@@ -24,6 +24,9 @@ def read_policy(file):
 
 def average_policy(folder, count):
     """The newest policy, but with the mean weights, centres and widths of the last `count` checkpoints."""
+    learner = folder.settings().get("learner", "kind", fallback="q_learning")
+    if learner != "q_learning":
+        raise InputError(f"--average: {folder.path} is of a {learner}; only networks of Q-learning have a mean")
     files = sorted(folder.checkpoints.glob("episode_*.lcm"))[-count:]
     if not 1 <= count == len(files):
         raise InputError(f"--average {count}: must be from 1 to the number of checkpoints in {folder.checkpoints}")

@@ -19,7 +19,7 @@ def parse_arguments():
     parser = command.parser(
         "evaluate",
         "Drives with the policy of a run, without learning; leaves RUN/evaluation/.",
-        "runs/paper-seed1-20250131-120000 --set episode.goal_distance_m=10",
+        "runs/default-seed1-20250131-120000 --set episode.goal_distance_m=10",
     )
     parser.add_argument("run", metavar="RUN", help="run folder")
     parser.add_argument("--episodes", type=int, default=EPISODES, help=f"how many; default {EPISODES}")
@@ -33,7 +33,7 @@ def parse_arguments():
         "--average",
         type=int,
         metavar="N",
-        help="instead of the policy the mean of the networks of the last N checkpoints; left as policy.lcm",
+        help="Q-learning: instead of the policy the mean of the networks of the last N checkpoints; left as policy.lcm",
     )
     parser.add_argument(
         "--set",

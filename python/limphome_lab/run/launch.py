@@ -16,9 +16,9 @@ def parse_arguments():
     parser = command.parser(
         "launch",
         "Runs simulator and controller in real time until Ctrl-C.",
-        "--policy runs/paper-seed1-20250131-120000",
+        "--policy runs/default-seed1-20250131-120000",
     )
-    parser.add_argument("--config", help="experiment (INI); default config/paper.ini, or the run's")
+    parser.add_argument("--config", help="experiment (INI); default config/default.ini, or the run's")
     parser.add_argument("--robot", help="robot (URDF); default config/crawler.urdf, or the run's")
     parser.add_argument("--policy", metavar="RUN", help="drive with the policy of this run instead of learning")
     parser.add_argument(
@@ -30,7 +30,7 @@ def parse_arguments():
 
 def make_folder(args):
     """(folder of this launch, options for the controller)"""
-    config, robot, options = paths.CONFIG / "paper.ini", paths.CONFIG / "crawler.urdf", []
+    config, robot, options = paths.CONFIG / "default.ini", paths.CONFIG / "crawler.urdf", []
     if args.policy:
         trained = runfolder.existing(args.policy, "policy")
         config, robot, options = trained.config, trained.robot, ["--evaluate", trained.policy]

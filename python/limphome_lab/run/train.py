@@ -13,7 +13,7 @@ from limphome_lab.show.progress import Progress, clock
 
 def parse_arguments():
     parser = command.parser("train", "Trains a policy and leaves a run folder.", "--seed 2 --episodes 100")
-    parser.add_argument("--config", help="experiment (INI); default config/paper.ini")
+    parser.add_argument("--config", help="experiment (INI); default config/default.ini")
     parser.add_argument("--robot", help="robot (URDF); default config/crawler.urdf")
     parser.add_argument("--episodes", type=int, help="how many; short for --set learning.episodes=N")
     parser.add_argument("--seed", type=int, help="of every random number; short for --set learning.seed=N")
@@ -41,7 +41,7 @@ def new_folder(args):
         assignments.append(f"learning.seed={args.seed}")
     if args.episodes is not None:
         assignments.append(f"learning.episodes={args.episodes}")
-    config = Path(args.config or paths.CONFIG / "paper.ini")
+    config = Path(args.config or paths.CONFIG / "default.ini")
     folder = runfolder.create(args.out, config, args.robot or paths.CONFIG / "crawler.urdf", assignments)
     begin_manifest(folder, config.stem)
     return folder

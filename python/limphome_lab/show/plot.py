@@ -8,7 +8,7 @@ from limphome_lab.ending import with_exit_code
 
 @with_exit_code
 def main():
-    parser = command.parser("plot", "Draws the figures of a run.", "runs/paper-seed1-20250131-120000")
+    parser = command.parser("plot", "Draws the figures of a run.", "runs/default-seed1-20250131-120000")
     parser.add_argument("run", metavar="RUN", help="run folder")
     args = parser.parse_args()
     folder = runfolder.existing(args.run, "episodes", "messages")
