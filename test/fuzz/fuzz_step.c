@@ -30,7 +30,6 @@ static lh_learner_config varied_planner(const lh_learner_config *standard, uint8
     config.kind = (choices & 1) != 0 ? LH_PLANNER : LH_Q_LEARNING;
     config.planner.mechanics = (choices & 2) != 0;
     config.planner.candidates = (choices & 4) != 0 ? 1 : 10;
-    config.planner.curiosity = (choices & 8) != 0 ? LH_PLANNER_WEIGHT_MAX : 0.3f;
     config.planner.steering = (choices & 16) != 0 ? LH_PLANNER_WEIGHT_MAX : 1.5f;
     config.planner.random_share = (choices & 32) != 0 ? 1.0f : 0.02f;
     config.planner.discount_rate = (choices & 64) != 0 ? LH_DISCOUNT_RATE_MAX : 0.99f;

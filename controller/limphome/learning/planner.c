@@ -26,8 +26,6 @@ lh_planner_config lh_planner_config_default(void) {
         .mechanics = true,
         .steering = 1.5f,
         .unsafe = 3.0f,
-        .curiosity = 0.3f,
-        .curiosity_decay = 0.97f,
         .random_share = 0.02f,
         .candidates = 5,
         .sweeps = 10,
@@ -45,9 +43,7 @@ lh_error lh_planner_config_validate(const lh_planner_config *config) {
     }
     bool good = lh_within(config->decision_period, LH_DECISION_PERIOD_MIN, LH_DECISION_PERIOD_MAX) &&
                 lh_within(config->steering, 0.0f, LH_PLANNER_WEIGHT_MAX) &&
-                lh_within(config->unsafe, 0.0f, LH_PLANNER_WEIGHT_MAX) &&
-                lh_within(config->curiosity, 0.0f, LH_PLANNER_WEIGHT_MAX) &&
-                lh_within(config->curiosity_decay, 0.0f, 1.0f) && lh_within(config->random_share, 0.0f, 1.0f) &&
+                lh_within(config->unsafe, 0.0f, LH_PLANNER_WEIGHT_MAX) && lh_within(config->random_share, 0.0f, 1.0f) &&
                 is_count(config->candidates, 1, LH_CANDIDATES_MAX) && is_count(config->sweeps, 0, LH_SWEEPS_MAX) &&
                 is_count(config->backups, 0, LH_BACKUPS_MAX);
     return good ? LH_OK : LH_ERROR_PLANNER;
@@ -73,7 +69,6 @@ lh_error lh_planner_init(lh_planner *planner, const lh_planner_config *config, c
                            2.0f * task->config.joint_speed * config->decision_period);
     lh_random_init(&learned->random, seed);
     learned->ground = vertical;
-    learned->curiosity = config->curiosity;
     planner->up = vertical;
     planner->node = LH_NO_NODE;
     lh_planning_assess(planner);
@@ -176,7 +171,7 @@ static lh_option choose(lh_planner *planner, const float *angle, lh_course cours
         lh_planning_consider(planner, angle, course, choose_at_random(planner, angle), &any);
         return any;
     }
-    return lh_planning_choose(planner, angle, course, greedy ? 0.0f : planner->learned.curiosity);
+    return lh_planning_choose(planner, angle, course);
 }
 
 void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool learns, bool greedy, lh_choice *choice) {
@@ -192,9 +187,6 @@ void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool lear
         choice->learned = true;
     }
     learned->decisions += learned->decisions < LH_LAST_DECISION;
-    if (learns && observed->outcome != LH_OUTCOME_NONE) {
-        learned->curiosity *= planner->config.curiosity_decay;
-    }
     watch_progress(planner, observed);
     if (observed->reset) {
         return;
@@ -233,8 +225,7 @@ lh_error lh_planner_restore(lh_planner *planner, const lh_planner_learned *saved
     bool good = lh_motion_model_fits(&saved->model, &learned->model) &&
                 lh_posture_values_fit(&saved->values, &learned->values) &&
                 is_count(saved->turn, 0, saved->values.num_nodes - 1) &&
-                is_count(saved->decisions, 0, LH_LAST_DECISION) &&
-                lh_within(saved->curiosity, 0.0f, LH_PLANNER_WEIGHT_MAX) && lh_within(ground.x, -1.0f, 1.0f) &&
+                is_count(saved->decisions, 0, LH_LAST_DECISION) && lh_within(ground.x, -1.0f, 1.0f) &&
                 lh_within(ground.y, -1.0f, 1.0f) && lh_within(ground.z, LH_LEAST_GROUND, 1.001f) &&
                 lh_within(lh_vec3_norm(ground), 0.999f, 1.001f);
     if (!good) {

@@ -44,8 +44,6 @@ typedef struct lh_planner_config {
                               arm. Default true */
     float steering;        /* weight of the steering error, 0 to LH_PLANNER_WEIGHT_MAX; default 1.5 */
     float unsafe;          /* weight of a margin below the safe one, 0 to LH_PLANNER_WEIGHT_MAX; default 3 */
-    float curiosity; /* reward for what was never tried here, in episode 1, 0 to LH_PLANNER_WEIGHT_MAX; default 0.3 */
-    float curiosity_decay; /* of that from one episode to the next, 0 to 1; default 0.97 */
     float random_share;    /* of actions taken at random while it learns, 0 to 1; default 0.02 */
     int32_t candidates;    /* actions looked into by a second step, 1 (none) to LH_CANDIDATES_MAX; default 5 */
     int32_t sweeps;  /* of value iteration over all postures before the first decision, 0 to LH_SWEEPS_MAX; default
@@ -59,7 +57,6 @@ typedef struct lh_planner_learned {
     lh_posture_values values;
     lh_random random;
     lh_vec3 ground;    /* its normal in the world frame, unit length, z above LH_LEAST_GROUND */
-    float curiosity;   /* that is left, 0 to LH_PLANNER_WEIGHT_MAX */
     int32_t turn;      /* node that is backed up next in turn */
     int32_t decisions; /* so far, 0 to LH_LAST_DECISION */
 } lh_planner_learned;
@@ -108,8 +105,8 @@ lh_error lh_planner_init(lh_planner *planner, const lh_planner_config *config, c
 void lh_planner_begin(lh_planner *planner);
 
 /* One decision: takes in what the step that led here did, if `learn`, plans, and then chooses; if `greedy`, without
- * curiosity and chance. Planning goes on without `learn`, on what was measured before. Where the robot has made no
- * progress for long, chance decides some of the actions in any case. */
+ * chance. Planning goes on without `learn`, on what was measured before. Where the robot has made no progress for long,
+ * chance decides some of the actions in any case. */
 void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool learn, bool greedy, lh_choice *choice);
 
 void lh_planner_save(const lh_planner *planner, lh_planner_learned *learned);

@@ -11,7 +11,6 @@
 #define LACKING_MAX 3.0f   /* of 1 - S / S_safe */
 #define STEERING_BEND 0.1f /* the penalty is quadratic up to here, linear beyond [rad] */
 #define JAMMED 0.6f        /* an arm that moves less than this share is taken not to get anywhere */
-#define KNOWN 0.1f         /* so much weight of samples halves curiosity */
 
 static float magnitude(float x) {
     return x < 0.0f ? -x : x;
@@ -209,15 +208,12 @@ static int32_t rank(lh_option *best, int32_t count, int32_t most, const lh_optio
     return count < most ? count + 1 : most;
 }
 
-lh_option lh_planning_choose(lh_planner *planner, const float *angle, lh_course course, float curiosity) {
+lh_option lh_planning_choose(lh_planner *planner, const float *angle, lh_course course) {
     lh_option best[LH_CANDIDATES_MAX];
     int32_t count = 0;
     for (int32_t a = 0; a < planner->planned.num_actions; a++) {
         lh_option candidate;
         if (lh_planning_consider(planner, angle, course, a, &candidate)) {
-            float bonus = curiosity * KNOWN / (KNOWN + planner->outlook.sums[a].narrow_weight);
-            candidate.reward += bonus;
-            candidate.value += bonus;
             count = rank(best, count, planner->config.candidates, &candidate);
         }
     }

@@ -43,7 +43,7 @@ bool lh_planning_consider(const lh_planner *planner, const float *angle, lh_cour
                           lh_option *option);
 
 /* The one that promises most, by a search of two steps. The posture looked at is angle[planned.num_joints], and after
- * the call another. `curiosity` is the reward for an action that was never tried there. */
-lh_option lh_planning_choose(lh_planner *planner, const float *angle, lh_course course, float curiosity);
+ * the call another. */
+lh_option lh_planning_choose(lh_planner *planner, const float *angle, lh_course course);
 
 #endif
