@@ -1,8 +1,9 @@
-"""manifest.json: where a run came from, and what it took.
+"""manifest.json: what a run followed from, where it came from, and what it took.
 
 A run that was interrupted and resumed has several parts; each is measured by itself, and the totals are their sums.
 """
 
+import hashlib
 import json
 import os
 import platform
@@ -131,6 +132,8 @@ def write_manifest(folder, part):
     manifest = {
         "config": begun["config"],
         "seed": int(folder.settings()["learning"]["seed"]),
+        "settings": as_dict(folder.settings()),
+        "digests": {"robot": digest(folder.robot), **program_digests()},
         "result": part["result"],
         "episodes": len(episodes),
         "outcomes": dict(Counter(episode.outcome for episode in episodes)),
@@ -142,6 +145,19 @@ def write_manifest(folder, part):
         "parts": parts,
     }
     folder.manifest.write_text(json.dumps(manifest, indent=2) + "\n")
+
+
+def as_dict(settings):
+    """{section: {key: value}} of a configparser."""
+    return {section: dict(settings[section]) for section in settings.sections()}
+
+
+def digest(file):
+    return hashlib.sha256(Path(file).read_bytes()).hexdigest()
+
+
+def program_digests():
+    return {name: digest(paths.program(name)) for name in PROCESSES}
 
 
 def output(*command):
