@@ -58,7 +58,7 @@ static const char files_help[] =
 static const char controller_help[] =
     "  --out DIR                write the run folder: episodes.csv, policy.lcm, checkpoint/, messages.lcmlog\n"
     "  --resume                 go on from the newest checkpoint in DIR\n"
-    "  --evaluate POLICY        drive with a learned policy, greedily and without learning\n";
+    "  --evaluate POLICY        drive with a learned policy, without learning, [learning] episodes more\n";
 
 static const char *program_name(command_line_program program) {
     return program == COMMAND_LINE_CONTROLLER ? "limphome-controller" : "limphome-simulator";

@@ -11,11 +11,26 @@ static int64_t hash_of(const run *r) {
     return (int64_t)(settings_hash(&r->settings) * 1099511628211u ^ r->robot.hash);
 }
 
+/* An evaluation goes on from the episode after the policy's, so that T of (4) and what is drawn for an episode are those
+ * that more training would have met. */
+static bool open_policy(run *r, const char *path) {
+    if (!run_folder_read_policy(path, &r->policy, r->error)) {
+        return false;
+    }
+    if (r->policy.episode > LH_LAST_EPISODE - r->last) {
+        return fail_with(r->error, "%.200s: is of episode %" PRId32 ", beyond what can be counted", path,
+                         r->policy.episode);
+    }
+    r->finished = r->policy.episode;
+    r->last += r->finished;
+    return true;
+}
+
 /* Takes what there is to begin with: nothing, a policy to be used, or a checkpoint to go on from. */
 static bool open_folder(run *r, const command_line *line) {
     r->evaluating = line->evaluate != NULL;
     r->resuming = line->resume;
-    if (r->evaluating && !run_folder_read_policy(line->evaluate, &r->policy, r->error)) {
+    if (r->evaluating && !open_policy(r, line->evaluate)) {
         return false;
     }
     if (!r->resuming) {
@@ -37,6 +52,7 @@ static bool open_log(run *r) {
 bool run_open(run *r, const command_line *line) {
     memset(r, 0, sizeof *r);
     r->settings = line->settings;
+    r->last = (int32_t)r->settings.learning.episodes;
     if (!urdf_read(&r->robot, line->robot, r->error)) {
         return false;
     }
@@ -78,7 +94,7 @@ static bool restore_learner(run *r) {
 static bool begin_learner(run *r, const limphome_robot_state_t *state) {
     const lh_controlled controlled = convert_controlled(state);
     r->config.learner.learn = !r->evaluating;
-    r->config.learner.greedy = r->evaluating;
+    r->config.learner.greedy = r->evaluating && r->settings.evaluation.selection == SETTINGS_GREEDY;
     lh_error error = lh_controller_init(&r->controller, &r->config, &r->robot.robot, &controlled);
     if (error == LH_OK && state->num_actuators != r->robot.robot.num_actuators) {
         error = LH_ERROR_STATE;
@@ -123,7 +139,7 @@ static void decide(run *r, const limphome_robot_state_t *state) {
     }
     const lh_observed *observed = &decision.observed;
     const bool ended = observed->outcome != LH_OUTCOME_NONE;
-    const bool last = ended && observed->summary.number >= r->settings.learning.episodes;
+    const bool last = ended && observed->summary.number >= r->last;
     r->reset_sent = false;
     if (observed->reset && !last) {
         session_reset(&r->session);
@@ -197,7 +213,7 @@ static void send_status(run *r, int8_t condition) {
 }
 
 bool run_decide(run *r, const volatile sig_atomic_t *stop) {
-    while (*stop == 0 && r->error[0] == '\0' && r->finished < r->settings.learning.episodes) {
+    while (*stop == 0 && r->error[0] == '\0' && r->finished < r->last) {
         if (!bus_wait(&r->bus, r->settings.link.resend_s)) {
             return fail_with(r->error, "the bus is broken");
         }
@@ -214,7 +230,7 @@ bool run_decide(run *r, const volatile sig_atomic_t *stop) {
             r->status_at = bus_now() + 1;
         }
     }
-    return r->error[0] == '\0' && r->finished >= r->settings.learning.episodes;
+    return r->error[0] == '\0' && r->finished >= r->last;
 }
 
 bool run_close(run *r, bool complete) {

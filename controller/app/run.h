@@ -36,7 +36,8 @@ typedef struct run {
     limphome_velocity_command_t command; /* answer to the newest state, to be repeated when asked again */
     bool reset_sent;                     /* a reset request for the present session is out */
 
-    int32_t finished; /* episodes */
+    int32_t finished; /* episodes, those of the policy or checkpoint among them */
+    int32_t last;     /* episode after which the run is complete */
     int64_t decisions;
     int64_t utime;    /* plant time of the newest state decided on [us] */
     int64_t stale;    /* messages of past states or other sessions */

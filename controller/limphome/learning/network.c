@@ -21,7 +21,7 @@ lh_network_config lh_network_config_default(void) {
         .initial_width = 1.0f,
         .width_floor = 0.05f,
         .weight_limit = 1e4f,
-        .exact_gradient = false,
+        .exact_gradient = true,
     };
 }
 

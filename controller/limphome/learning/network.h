@@ -36,8 +36,8 @@ typedef struct lh_network_config {
     float initial_width;  /* sigma_j, width_floor to LH_INITIAL_WIDTH_MAX; paper: 1.0 */
     float width_floor;    /* least sigma_j, LH_WIDTH_FLOOR_MIN to LH_WIDTH_FLOOR_MAX; default 0.05 */
     float weight_limit;   /* largest |w_j|, LH_WEIGHT_LIMIT_MIN to LH_WEIGHT_LIMIT_MAX; default 1e4 */
-    /* false: (19)-(21) as printed. true: the derivative of (15) by (13)(14), which has alpha delta for
-     * alpha^2 delta in all three and a factor 2 in (20) and (21). */
+    /* true, the default: the derivative of (15) by (13)(14), which has alpha delta for alpha^2 delta in all three and a
+     * factor 2 in (20) and (21). false: (19)-(21) as printed. */
     bool exact_gradient;
 } lh_network_config;
 

@@ -5,7 +5,7 @@
 lh_episode_config lh_episode_config_default(void) {
     return (lh_episode_config){
         .goal_distance = 2.0f,
-        .step_limit = 200,
+        .step_limit = 2000,
         .tumble_tilt = LH_PI / 3.0f,
         .reset_every = 50,
     };

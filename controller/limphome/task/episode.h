@@ -30,7 +30,7 @@ typedef enum lh_outcome {
 
 typedef struct lh_episode_config {
     float goal_distance; /* b, LH_GOAL_DISTANCE_MIN to LH_GOAL_DISTANCE_MAX [m]; paper: 2 */
-    int32_t step_limit;  /* decisions, 1 to LH_STEP_LIMIT_MAX; default 200 */
+    int32_t step_limit;  /* decisions, 1 to LH_STEP_LIMIT_MAX; default 2000 */
     float tumble_tilt;   /* LH_TUMBLE_TILT_MIN to LH_TUMBLE_TILT_MAX [rad]; default pi/3 */
     int32_t reset_every; /* episodes between returns to the initial pose, 1 to LH_RESET_EVERY_MAX; default 50 */
 } lh_episode_config;

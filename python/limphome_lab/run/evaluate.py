@@ -1,4 +1,4 @@
-"""Command evaluate: drives with the policy of a run, greedily and without learning."""
+"""Command evaluate: drives with the policy of a run, without learning."""
 
 import json
 import shutil
@@ -17,26 +17,39 @@ EPISODES = 50
 def parse_arguments():
     parser = command.parser(
         "evaluate",
-        "Drives with the policy of a run, greedily and without learning; leaves RUN/evaluation/.",
-        "runs/paper-seed1-20250131-120000 --episodes 20",
+        "Drives with the policy of a run, without learning; leaves RUN/evaluation/.",
+        "runs/paper-seed1-20250131-120000 --set episode.goal_distance_m=10",
     )
     parser.add_argument("run", metavar="RUN", help="run folder")
     parser.add_argument("--episodes", type=int, default=EPISODES, help=f"how many; default {EPISODES}")
+    parser.add_argument(
+        "--selection",
+        choices=("greedy", "boltzmann"),
+        default="greedy",
+        help="always a best action (default), or as in training, where it ended",
+    )
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="SECTION.KEY=VALUE",
+        help="one setting other than in training, such as another failure; repeatable",
+    )
     parser.add_argument("--json", action="store_true", help="print JSON instead of a table")
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
     return parser.parse_args()
 
 
-def evaluation_folder(trained, episodes):
+def evaluation_folder(trained, assignments):
     """RUN/evaluation/, made anew: it holds nothing but what an earlier evaluation left."""
-    settings = [f"learning.episodes={episodes}", "simulator.pace=lockstep"]
-    runfolder.resolve_settings(trained.config, settings)  # refused before the earlier evaluation is removed
+    runfolder.resolve_settings(trained.config, assignments)  # refused before the earlier evaluation is removed
     out = trained.path / "evaluation"
     shutil.rmtree(out, ignore_errors=True)
-    return runfolder.create(out, trained.config, trained.robot, settings)
+    return runfolder.create(out, trained.config, trained.robot, assignments)
 
 
-def evaluate(folder, policy, url, episodes):
+def evaluate(folder, policy, url):
+    episodes = int(folder.settings()["learning"]["episodes"])
     tail = runfolder.EpisodeTail(folder.episodes)
     with Pair(folder, url, ["--evaluate", policy]) as pair:
         pair.run(tail, Progress(episodes, quiet=not sys.stderr.isatty()))
@@ -49,8 +62,9 @@ def main():
     url = network.enter(args.network)
     raise_on_signals()
     trained = runfolder.existing(args.run, "policy")
-    folder = evaluation_folder(trained, args.episodes)
-    summary = evaluate(folder, trained.policy, url, args.episodes)
+    settings = [f"learning.episodes={args.episodes}", f"evaluation.selection={args.selection}"]
+    folder = evaluation_folder(trained, [*settings, "simulator.pace=lockstep", *args.set])
+    summary = evaluate(folder, trained.policy, url)
     print(json.dumps(summary, indent=2) if args.json else table(summary))
     return 0
 

@@ -19,11 +19,13 @@ def clock(seconds):
 
 
 class Progress:
-    """Feed it rows of episodes.csv as they come; those up to episode `done` are of an earlier part of the run."""
+    """Feed it rows of episodes.csv as they come; those up to episode `done` are of an earlier part of the run.
+
+    It counts the rows, as those of an evaluation are numbered on from the training's."""
 
     def __init__(self, total, done=0, quiet=False, stream=sys.stderr):
         self.total = total
-        self.done = done
+        self.earlier = self.done = done
         self.quiet = quiet
         self.stream = stream
         self.live = stream.isatty()
@@ -35,9 +37,9 @@ class Progress:
     def update(self, episodes):
         now = time.monotonic()
         for episode in episodes:
-            if episode.episode <= self.done:
+            if episode.episode <= self.earlier:
                 continue
-            self.done = episode.episode
+            self.done += 1
             self.simulated_s += episode.duration_s
             self.recent.append((episode, now))
         if not self.quiet and now - self.shown_at >= (TERMINAL_EVERY_S if self.live else LINE_EVERY_S):
