@@ -17,7 +17,7 @@ EPISODES = 50
 def parse_arguments():
     parser = command.parser(
         "evaluate",
-        "Drives with the policy of a run, without learning; leaves RUN/evaluation/.",
+        "Drives with the policy of a run, without learning; leaves a run folder.",
         "runs/paper-seed1-20250131-120000 --set episode.goal_distance_m=10",
     )
     parser.add_argument("run", metavar="RUN", help="run folder")
@@ -35,16 +35,18 @@ def parse_arguments():
         metavar="SECTION.KEY=VALUE",
         help="one setting other than in training, such as another failure; repeatable",
     )
+    parser.add_argument("--out", metavar="DIR", help="run folder to make; default RUN/evaluation/, made anew")
     parser.add_argument("--json", action="store_true", help="print JSON instead of a table")
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
     return parser.parse_args()
 
 
-def evaluation_folder(trained, assignments):
-    """RUN/evaluation/, made anew: it holds nothing but what an earlier evaluation left."""
-    runfolder.resolve_settings(trained.config, assignments)  # refused before the earlier evaluation is removed
-    out = trained.path / "evaluation"
-    shutil.rmtree(out, ignore_errors=True)
+def evaluation_folder(trained, assignments, out=None):
+    """`out`, or RUN/evaluation/, which holds nothing but what an earlier evaluation left and is made anew."""
+    if out is None:
+        runfolder.resolve_settings(trained.config, assignments)  # refused before the earlier evaluation is removed
+        out = trained.path / "evaluation"
+        shutil.rmtree(out, ignore_errors=True)
     return runfolder.create(out, trained.config, trained.robot, assignments)
 
 
@@ -63,7 +65,7 @@ def main():
     raise_on_signals()
     trained = runfolder.existing(args.run, "policy")
     settings = [f"learning.episodes={args.episodes}", f"evaluation.selection={args.selection}"]
-    folder = evaluation_folder(trained, [*settings, "simulator.pace=lockstep", *args.set])
+    folder = evaluation_folder(trained, [*settings, "simulator.pace=lockstep", *args.set], args.out)
     summary = evaluate(folder, trained.policy, url)
     print(json.dumps(summary, indent=2) if args.json else table(summary))
     return 0

@@ -5,7 +5,7 @@ from html import escape
 
 STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; color: #222; max-width: 75rem; margin: 2rem auto; padding: 0 1rem }
-table { border-collapse: collapse; margin: 1rem 0; font-variant-numeric: tabular-nums; display: block; overflow-x: auto }
+table { border-collapse: collapse; margin: 1rem 0; display: block; overflow-x: auto }
 th, td { border-bottom: 1px solid #e3e7eb; padding: .25rem .7rem; text-align: left; vertical-align: top }
 th { border-bottom: 2px solid #9aa5b1 }
 img { max-width: 100% }

@@ -25,7 +25,9 @@ class Run:
     seed: int
     fingerprint: str
     train: list  # words of the command, without --out
-    evaluations: dict = field(default_factory=dict)  # by name: (folder's name, words of the command, without RUN, --out)
+    evaluations: dict = field(
+        default_factory=dict
+    )  # by name: (folder's name, words of the command, without RUN, --out)
 
     @property
     def name(self):
@@ -40,10 +42,7 @@ class Plan:
         self.out = Path(out).absolute()
         programs = manifest.program_digests()
         self.runs = [
-            self._run(case, seed, programs)
-            for case in table.cases
-            for seeds in table.seeds.values()
-            for seed in seeds
+            self._run(case, seed, programs) for case in table.cases for seeds in table.seeds.values() for seed in seeds
         ]
 
     def folder(self, run):
@@ -76,7 +75,7 @@ class Plan:
         robot = self._found(case.variant.get("robot", "crawler.urdf"))
         episodes = case.variant.get("episodes", self.table.episodes)
         assignments = [*case.settings, f"learning.seed={seed}"]
-        if episodes:
+        if episodes is not None:
             assignments.append(f"learning.episodes={episodes}")
         settings = _resolved(config, assignments, where)
         if not robot.is_file():

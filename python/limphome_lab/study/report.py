@@ -8,14 +8,16 @@ from limphome_lab.show.figures import style
 from limphome_lab.show.progress import clock
 from limphome_lab.study import figures, intervals, learned, outcome
 from limphome_lab.study.document import Figure, Heading, Paragraph, Table, html, markdown
+from limphome_lab.study.intervals import NEVER
 
 CRITERION = (
     f"Learned at n: the least n such that the next {learned.WINDOW} episodes have at least {learned.GOALS} goals, no "
     f"tumble, and medians of at most {learned.LATERAL_ERROR_M:.2f} m beside the line, "
-    f"{math.degrees(learned.HEADING_CHANGE_RAD):.0f} degrees of turn and {learned.DURATION_S:.0f} s; where a case is marked "
-    f"hard, the larger of that and {learned.PACE_MARGIN} times the run's own best pace. Held: share of the windows from "
-    "there to the run's end that fulfil it. Robot minutes: duration of episodes 1 to n. Intervals are of 95 %: exact for "
-    "shares (Clopper and Pearson), bootstrap for medians, in which a seed that never learned counts as above all others."
+    f"{math.degrees(learned.HEADING_CHANGE_RAD):.0f} degrees of turn and {learned.DURATION_S:.0f} s; where a case is "
+    f"marked hard, the larger of that and {learned.PACE_MARGIN} times the run's own best pace. Held: share of the "
+    "windows from there to the run's end that fulfil it. Robot minutes: duration of episodes 1 to n. Intervals are of "
+    "95 %: exact for shares (Clopper and Pearson), bootstrap for medians, in which a seed that never learned counts as "
+    "above all others."
 )
 SUMMARY = (
     "case",
@@ -31,7 +33,17 @@ SUMMARY = (
     "wall time",
 )
 DRIVEN = ("case", "evaluation", "runs", "reached every goal", "duration, median", "beside the line, median", "worst")
-SEED = ("seed", "learned at", "held", "robot minutes", "duration", "beside the line", "tumbles", "wall time", "evaluated")
+SEED = (
+    "seed",
+    "learned at",
+    "held",
+    "robot minutes",
+    "duration",
+    "beside the line",
+    "tumbles",
+    "wall time",
+    "evaluated",
+)
 
 
 def write_report(plan):
@@ -106,13 +118,15 @@ def results(use, counted):
         return []
     blocks = [Heading(2, f"On {use} seeds"), Table(SUMMARY, rows)]
     driven = [row for case, found in counted.items() for row in driven_rows(case, found)]
-    return blocks + ([Paragraph("What was learned, evaluated without learning:"), Table(DRIVEN, driven)] if driven else [])
+    return blocks + (
+        [Paragraph("What was learned, evaluated without learning:"), Table(DRIVEN, driven)] if driven else []
+    )
 
 
 def summary_row(case, found):
     learners = [each for each in found if each.n is not None]
     low, high = intervals.share(len(learners), len(found))
-    n = [intervals.NEVER if each.n is None else each.n for each in found]
+    n = [NEVER if each.n is None else each.n for each in found]
     last = [learned.last(each.episodes) for each in found]
     return (
         case.name + (" (hard)" if case.hard else ""),
@@ -120,7 +134,7 @@ def summary_row(case, found):
         episodes(intervals.middle(n)) + span(intervals.median(n)),
         episodes(max(n)),
         middle([each.held for each in learners], "{:.0%}"),
-        f"{sum(each.held == 1 for each in learners)} of {len(learners)}",
+        f"{sum(each.held == 1 for each in learners)} of {len(learners)}" if learners else "",
         middle([each.robot_minutes for each in learners], "{:.1f}"),
         middle([duration for duration, _ in last], "{:.2f} s"),
         middle([lateral for _, lateral in last], "{:.3f} m"),
@@ -130,11 +144,11 @@ def summary_row(case, found):
 
 
 def episodes(n):
-    return "never" if n == intervals.NEVER else f"{n:g}"
+    return "never" if n == NEVER else f"{n:g}"
 
 
 def span(interval):
-    return "" if interval is None else f" ({episodes(interval[0])} to {episodes(interval[1])})"
+    return "" if interval in (None, (NEVER, NEVER)) else f" ({episodes(interval[0])} to {episodes(interval[1])})"
 
 
 def middle(values, form):

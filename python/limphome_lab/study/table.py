@@ -15,6 +15,13 @@ SIDES = ("variants", "failures", "grounds")  # of a cross, each with each
 USES = ("tuning", "test")  # of seeds
 GIVEN = {"learning.seed": "seeds", "learning.episodes": "episodes"}  # settings that a table says in its own words
 SELECTIONS = ("greedy", "boltzmann")
+OWN = {  # keys of an entry beside the settings it makes
+    "variants": {"config": str, "robot": str, "episodes": int, "hard": bool},
+    "failures": {"hard": bool},
+    "grounds": {"hard": bool},
+    "evaluations": {"episodes": int, "selection": str},
+}
+WORDS = {str: "a text", int: "a whole number from 1", bool: "true or false", dict: "a table"}
 
 
 @dataclass(frozen=True)
@@ -29,7 +36,7 @@ class Entry:
         return self.own.get(key, otherwise)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Case:
     """One line of the report: a variant that meets a failure on a ground, with every seed."""
 
@@ -54,7 +61,7 @@ class Case:
 @dataclass(frozen=True)
 class Table:
     path: Path
-    episodes: int
+    episodes: int | None  # None: as the variants' experiments have it
     seeds: dict  # "tuning" and "test": list of numbers
     cases: list
     evaluations: list  # of Entry
@@ -66,14 +73,6 @@ class Table:
 
 class _Reader:
     """Reads one file; what is wrong ends in an error that names file, key and what is allowed."""
-
-    OWN = {  # keys of an entry besides the settings it makes
-        "variants": {"config": str, "robot": str, "episodes": int, "hard": bool},
-        "failures": {"hard": bool},
-        "grounds": {"hard": bool},
-        "evaluations": {"episodes": int, "selection": str},
-    }
-    WORDS = {str: "a text", int: "a whole number from 1", bool: "true or false", dict: "a table"}
 
     def __init__(self, path):
         self.path = path
@@ -92,7 +91,7 @@ class _Reader:
     def typed(self, value, kind, key):
         # a bool is an int to Python
         if type(value) is not kind or (kind is int and value < 1):
-            self.refuse(key, f"must be {self.WORDS[kind]}")
+            self.refuse(key, f"must be {WORDS[kind]}")
         return value
 
     def known(self, table, allowed, key):
@@ -102,7 +101,7 @@ class _Reader:
 
     def numbers(self, given, key):
         """Seeds: whole numbers and ranges such as "101-136"."""
-        allowed = f"must be a list of seeds from 0 to {SEED_MAX} and ranges such as \"101-136\", none of them twice"
+        allowed = f'must be a list of seeds from 0 to {SEED_MAX} and ranges such as "101-136", none of them twice'
         if not isinstance(given, list):
             self.refuse(key, allowed)
         seeds = []
@@ -124,14 +123,14 @@ class _Reader:
             self.refuse(key, "a name is made of letters, digits and _")
         own, settings = {}, []
         for word, value in self.typed(table, dict, key).items():
-            if word in self.OWN[section]:
-                own[word] = self.typed(value, self.OWN[section][word], f"{key}.{word}")
+            if word in OWN[section]:
+                own[word] = self.typed(value, OWN[section][word], f"{key}.{word}")
             elif isinstance(value, dict):
                 settings += [self.assignment(f"{word}.{each}", value[each], key) for each in value]
             else:
                 self.refuse(
                     f"{key}.{word}",
-                    f"not known; allowed are {', '.join(self.OWN[section])} and settings as section.key = value",
+                    f"not known; allowed are {', '.join(OWN[section])} and settings as section.key = value",
                 )
         return Entry(name, tuple(settings), own)
 
@@ -194,5 +193,5 @@ def read(path):
     for name, entry in entries["evaluations"].items():
         if entry.get("selection", "greedy") not in SELECTIONS:
             reader.refuse(f"evaluations.{name}.selection", f"must be one of {', '.join(SELECTIONS)}")
-    episodes = reader.typed(data.get("episodes", 0), int, "episodes")
+    episodes = reader.typed(data["episodes"], int, "episodes") if "episodes" in data else None
     return Table(reader.path, episodes, seeds, reader.cases(data, entries), list(entries["evaluations"].values()))
