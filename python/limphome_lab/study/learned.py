@@ -1,8 +1,8 @@
 """When a run had learned, whether it held, and what it came to. Pure functions of the rows of episodes.csv.
 
-The criterion is that of 20 episodes in a row, of 2 m each: at least 19 goals, no tumble, and at the median at most 10 cm
-beside the line, 5 degrees of turn and 9 s. A run *learned at n* if the window after episode n is the first that fulfils
-it; n = 0 is possible.
+The criterion is that of 20 episodes in a row, of 2 m each: at least 19 goals, no tumble, and at the median at most
+0.10 m beside the line, 5 degrees of turn and 9 s. A run *learned at n* if the window after episode n is the first that
+fulfils it; n = 0 is possible.
 """
 
 import math
