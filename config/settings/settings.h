@@ -35,7 +35,7 @@ extern "C" {
 #define CHOICE(section, name, words, ...) int64_t name; /* an enumerator of settings_WORDS */
 #define SENSOR_REAL(quantity, name, ...) double name;
 
-/* One actuator that fails: actuator, mode, weak_factor, slip_factor, at_s. */
+/* One actuator that fails: actuator, mode, weak_factor, slip_factor, at_s, at_episode. */
 typedef struct settings_failure {
     SETTINGS_FAILURE_KEYS(, )
 } settings_failure;

@@ -18,7 +18,7 @@ from limphome_lab.study.plan import Plan
 
 SNAKEFILE = Path(__file__).with_name("Snakefile")
 POLL_S = 0.5
-GRACE_S = 30.0  # for runs to end cleanly after Ctrl-C, before they are killed
+GRACE_S = 60.0  # for runs to end cleanly after Ctrl-C, before they are killed; a cluster takes half a minute
 
 
 def parse_arguments():
