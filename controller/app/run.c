@@ -11,8 +11,8 @@ static int64_t hash_of(const run *r) {
     return (int64_t)(settings_hash(&r->settings) * 1099511628211u ^ r->robot.hash);
 }
 
-/* An evaluation goes on from the episode after the policy's, so that T of (4) and what is drawn for an episode are those
- * that more training would have met. */
+/* An evaluation goes on from the episode after the policy's, so that T of (4) and what is drawn for an episode are
+ * those that more training would have met. */
 static bool open_policy(run *r, const char *path) {
     if (!run_folder_read_policy(path, &r->policy, r->error)) {
         return false;

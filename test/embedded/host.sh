@@ -10,7 +10,7 @@ cd "$build/test/embedded"
 rm -rf run
 LIMPHOME_BUILD=$build "$root/scripts/train" --quiet --out run --config "$root/config/paper.ini" --episodes 500 \
     --set episode.goal_distance_m=1.0 --set episode.tumble_tilt_rad=0.3 --set episode.reset_every=10 \
-    --set simulator.time_step_s=0.01
+    --set episode.step_limit=200 --set simulator.time_step_s=0.01
 ./record run
 ./replay
 ./elementary_bits

@@ -1,4 +1,4 @@
-"""What is learned does not change unnoticed: SHA-256 of what two runs of 60 episodes left behind.
+"""What is learned does not change unnoticed: SHA-256 of what two runs of 60 short episodes left behind.
 
 A change of recorded.json says that the learner, the task or the physics has changed, and is a decision of its own. The
 library gives the same bits everywhere; the simulator's depend on the C library's sine, which has two forms on x86-64.
@@ -29,6 +29,8 @@ def test_what_is_learned_is_what_was_recorded(experiment, tmp_path):
         ROOT / "config" / f"{experiment}.ini",
         "--episodes",
         60,
+        "--set",
+        "episode.step_limit=200",
         "--out",
         tmp_path / "run",
         "--quiet",

@@ -6,6 +6,7 @@ import sys
 
 from limphome_lab import command, network, runfolder
 from limphome_lab.ending import with_exit_code
+from limphome_lab.run.average import average_policy
 from limphome_lab.run.pair import Pair
 from limphome_lab.run.processes import raise_on_signals
 from limphome_lab.show.progress import Progress
@@ -27,6 +28,12 @@ def parse_arguments():
         choices=("greedy", "boltzmann"),
         default="greedy",
         help="always a best action (default), or as in training, where it ended",
+    )
+    parser.add_argument(
+        "--average",
+        type=int,
+        metavar="N",
+        help="instead of the policy the mean of the networks of the last N checkpoints; left as policy.lcm",
     )
     parser.add_argument(
         "--set",
@@ -64,9 +71,12 @@ def main():
     url = network.enter(args.network)
     raise_on_signals()
     trained = runfolder.existing(args.run, "policy")
+    average = None if args.average is None else average_policy(trained, args.average).encode()
     settings = [f"learning.episodes={args.episodes}", f"evaluation.selection={args.selection}"]
     folder = evaluation_folder(trained, [*settings, "simulator.pace=lockstep", *args.set], args.out)
-    summary = evaluate(folder, trained.policy, url)
+    if average is not None:
+        folder.policy.write_bytes(average)
+    summary = evaluate(folder, trained.policy if average is None else folder.policy, url)
     print(json.dumps(summary, indent=2) if args.json else table(summary))
     return 0
 

@@ -1,7 +1,9 @@
 """Command results: writes docs/results.md, and its figures, from run folders."""
 
+import configparser
 import json
 import shutil
+import statistics
 import sys
 from itertools import groupby
 
@@ -12,30 +14,26 @@ from limphome_lab.show.progress import clock
 from limphome_lab.show.summary import summarise
 
 DOCS = paths.ROOT / "docs"
-STRETCH = 250  # episodes at either end of a run that are compared
+SECTIONS = {"q_learning": "The paper's method", "planner": "The planner"}  # by kind of learner
+STRETCH = 250  # episodes at the end of a run that its row tells of
+VARIED = {("learning", "seed"), ("learning", "episodes")}  # within one experiment
+WINDOW, GOALS, DURATION_S = 20, 19, 12  # of what counts as learned
 FIGURES = {
     "fig8_reward": "Total reward of each episode (the paper's Fig. 8)",
     "fig7_trajectories": "Way of the robot in the first and the last episode (Fig. 7)",
     "fig9_motion": "Motion in the last episode (Fig. 9)",
     "fig_learning": "Duration, lateral error and share of goals",
 }
-LEARNING_COLUMNS = (
+COLUMNS = (
     "seed",
-    "episodes",
+    "learned after [episodes]",
+    "[decisions]",
     "reached the goal [%]",
     "duration [s]",
     "lateral error [m]",
+    "change of heading [rad]",
     "total reward",
-    "tumbles",
-)
-COST_COLUMNS = (
-    "seed",
-    "wall time",
-    "times real time",
-    "decisions",
-    "decisions/s",
-    "wall time in simulator + controller + link",
-    "revision",
+    "tumbles in all",
 )
 
 
@@ -46,18 +44,41 @@ class Run:
         self.episodes = self.folder.read_episodes()
         if self.manifest.get("result") != "finished":
             raise runfolder.InputError(f"{path}: the run has not finished")
-
-    @property
-    def name(self):
-        return self.manifest["config"]
+        settings = self.folder.settings()
+        self.learner = settings.get("learner", "kind", fallback="q_learning")
+        self.name = ", ".join([self.manifest["config"], *deviations(settings, self.manifest["config"])])
 
     @property
     def seed(self):
         return self.manifest["seed"]
 
 
+def deviations(settings, config):
+    """What was set otherwise than in config/CONFIG.ini (paper.ini where there is none): ["mode = free", ...]."""
+    file = paths.CONFIG / f"{config}.ini"
+    standard = configparser.ConfigParser()
+    standard.read_string(runfolder.resolve_settings(file if file.exists() else paths.CONFIG / "paper.ini", []))
+    return [
+        f"{key} = {value}"
+        for section in settings.sections()
+        for key, value in settings[section].items()
+        if (section, key) not in VARIED and standard.get(section, key, fallback=None) != value
+    ]
+
+
+def learned_after(episodes):
+    """Least n such that of the WINDOW episodes after the first n GOALS reach the goal, in DURATION_S at the median; or
+    None."""
+    for n in range(len(episodes) - WINDOW + 1):
+        window = episodes[n : n + WINDOW]
+        goals = sum(episode.outcome == "goal" for episode in window)
+        if goals >= GOALS and statistics.median(episode.duration_s for episode in window) <= DURATION_S:
+            return n
+    return None
+
+
 def stretch(episodes):
-    """Episodes compared at either end: a tenth of a short run."""
+    """Episodes at the end that tell how it ended: a tenth of a short run."""
     return STRETCH if len(episodes) >= 10 * STRETCH else max(1, len(episodes) // 10)
 
 
@@ -66,98 +87,128 @@ def markdown_table(columns, rows):
     return "\n".join(lines + ["| " + " | ".join(map(str, row)) + " |" for row in rows])
 
 
-def learning_row(run):
-    """Each figure as first stretch → last stretch."""
-    count = stretch(run.episodes)
-    first, last = summarise(run.episodes[:count]), summarise(run.episodes[-count:])
-
-    def both(name, form, factor=1):
-        return f"{first[name] * factor:{form}} → {last[name] * factor:{form}}"
-
-    tumbles = sum(episode.outcome == "tumble" for episode in run.episodes)
+def row(run):
+    learned = learned_after(run.episodes)
+    last = summarise(run.episodes[-stretch(run.episodes) :])
     return (
         run.seed,
-        len(run.episodes),
-        both("goal_share", ".0f", 100),
-        both("median_duration_s", ".1f"),
-        both("median_lateral_error_m", ".2f"),
-        both("median_reward", ".2f"),
-        f"{first['tumbles']} → {last['tumbles']} ({tumbles} in all)",
+        "never" if learned is None else learned,
+        "" if learned is None else sum(episode.steps for episode in run.episodes[:learned]),
+        f"{100 * last['goal_share']:.0f}",
+        f"{last['median_duration_s']:.1f}",
+        f"{last['median_lateral_error_m']:.2f}",
+        f"{last['median_heading_change_rad']:.2f}",
+        f"{last['median_reward']:.2f}",
+        sum(episode.outcome == "tumble" for episode in run.episodes),
     )
 
 
-def cost_row(run):
-    manifest = run.manifest
-    commit, dirty = manifest["revision"]["commit"], manifest["revision"]["dirty"]
+def span(values, form):
+    low, high = form(min(values)), form(max(values))
+    return low if low == high else f"{low} to {high}"
+
+
+def summary(runs):
+    """How many have learned, and when."""
+    learned = [n for n in (learned_after(run.episodes) for run in runs) if n is not None]
+    text = f"**Learned on {len(learned)} of {len(runs)} seeds"
+    if learned:
+        text += f", after {span(learned, str)} episodes, {statistics.median(learned):g} at the median"
+    return text + ".**"
+
+
+def cost(runs):
+    """What the runs took, and on what."""
+
+    def of(name):
+        return [run.manifest[name] for run in runs]
+
+    machines = sorted(
+        f"{cpu}, {cores} cores, {system}"
+        for cpu, cores, system in {(m["cpu"], m["cores"], m["os"]) for m in of("machine")}
+    )
+    revisions = sorted({f"`{(each['commit'] or 'unknown')[:10]}`" for each in of("revision")})
+    shares = " + ".join(f"{statistics.median(of(share)):.0%}" for share in SHARES)
     return (
-        run.seed,
-        clock(manifest["wall_time_s"]),
-        f"{manifest['real_time_factor']:.0f}",
-        manifest["decisions"],
-        f"{manifest['decisions_per_s']:.0f}",
-        " + ".join(f"{manifest[share]:.0%}" for share in SHARES),
-        f"`{(commit or 'unknown')[:10]}`" + (" with changes" if dirty else ""),
+        f"Each run took {span(of('wall_time_s'), clock)} for {span(of('decisions'), str)} decisions, "
+        f"{span(of('decisions_per_s'), '{:.0f}'.format)} a second, of which simulator + controller + link had {shares} "
+        f"at the median. {'; '.join(machines)}; revision {', '.join(revisions)}"
+        + (" with changes." if any(each["dirty"] for each in of("revision")) else ".")
     )
 
 
 def best(runs):
-    """The run that ended with the largest median reward: the one whose figures are shown."""
+    """The run that ended with the largest median reward."""
     return max(runs, key=lambda run: summarise(run.episodes[-stretch(run.episodes) :])["median_reward"])
 
 
-def copy_figures(run, note):
+def file_name(name):
+    return name.replace(", ", "-").replace(" = ", "-")
+
+
+def copy_figures(run):
     """Markdown that shows the figures of one run, copied to docs/images/."""
     images = DOCS / "images"
     images.mkdir(parents=True, exist_ok=True)
     shown = []
     for figure, caption in FIGURES.items():
-        name = f"{run.name}-seed{run.seed}-{figure}.png"
+        name = f"{file_name(run.name)}-seed{run.seed}-{figure}.png"
         shutil.copyfile(run.folder.figures / f"{figure}.png", images / name)
-        shown.append(f"![{caption}](images/{name})\n\n*{caption}; {run.name}, seed {run.seed}{note}.*")
+        shown.append(f"![{caption}](images/{name})\n\n*{caption}; {run.name}, seed {run.seed}, which ended best.*")
     return "\n\n".join(shown)
 
 
 def draw_seeds(name, runs):
-    """Markdown that shows how the reward went on every seed."""
-    from limphome_lab.show.figures import reward, style  # matplotlib takes most of a second to load
+    """Markdown that shows every episode of every seed."""
+    from limphome_lab.show.figures import seeds, style  # matplotlib takes most of a second to load
 
-    image = f"{name}-seeds.png"
-    style.save(reward.draw_seeds({run.seed: run.episodes for run in runs}), DOCS / "images" / image)
+    image = f"{file_name(name)}-seeds.png"
+    (DOCS / "images").mkdir(parents=True, exist_ok=True)
+    figure = seeds.draw(
+        {run.seed: run.episodes for run in runs}, {run.seed: learned_after(run.episodes) for run in runs}
+    )
+    style.save(figure, DOCS / "images" / image)
     return (
-        f"![Total reward on every seed](images/{image})\n\n*Running median of the total reward on every seed; {name}.*"
+        f"![Every episode of every seed](images/{image})\n\n*Every episode of every seed, both axes logarithmic; the "
+        f"green line is where it had learned; {name}.*"
     )
 
 
-def section(name, runs):
+def experiment(name, runs):
     counts = sorted({stretch(run.episodes) for run in runs})
-    machines = sorted(
-        {
-            f"{run.manifest['machine']['cpu']}, {run.manifest['machine']['cores']} cores, "
-            f"{run.manifest['machine']['os']}"
-            for run in runs
-        }
-    )
-    return "\n\n".join(
-        [
-            f"## {name}",
-            f"First → last {' or '.join(map(str, counts))} episodes of each run; duration, lateral error (its "
-            "magnitude) and reward are medians.",
-            markdown_table(LEARNING_COLUMNS, map(learning_row, runs)),
-            f"What it took, on {'; '.join(machines)}:",
-            markdown_table(COST_COLUMNS, map(cost_row, runs)),
-            copy_figures(best(runs), ", which ended best" if len(runs) > 1 else ""),
-            draw_seeds(name, runs),
-        ]
-    )
+    parts = [
+        f"### {name}",
+        summary(runs),
+        f"The last {' or '.join(map(str, counts))} of {span([len(run.episodes) for run in runs], str)} episodes of "
+        "each run; duration, lateral error and change of heading (their magnitudes) and reward are medians.",
+        markdown_table(COLUMNS, map(row, runs)),
+        draw_seeds(name, runs),
+    ]
+    return "\n\n".join([*parts, cost(runs)])
+
+
+def section(learner, runs):
+    """What was written of the learner in docs/results_LEARNER.md, figures of its first experiment, and all of them."""
+    notes = DOCS / f"results_{learner}.md"
+    parts = [f"## {SECTIONS[learner]}"]
+    if notes.exists():
+        parts.append(notes.read_text().strip())
+    experiments = [list(group) for _, group in groupby(runs, key=lambda run: run.name)]
+    parts.append(copy_figures(best(experiments[0])))
+    parts += [experiment(group[0].name, group) for group in experiments]
+    return "\n\n".join(parts)
 
 
 def document(runs):
-    runs = sorted(runs, key=lambda run: (run.name, run.seed))
-    notes = DOCS / "results_notes.md"
-    parts = ["# Results", "Written by `scripts/results` from run folders that `scripts/train` left."]
-    if notes.exists():
-        parts.append(notes.read_text().strip())
-    parts += [section(name, list(group)) for name, group in groupby(runs, key=lambda run: run.name)]
+    order = list(SECTIONS)
+    runs = sorted(runs, key=lambda run: (order.index(run.learner), run.name, run.seed))
+    parts = [
+        "# Results",
+        "Written by `scripts/results` from run folders that `scripts/train` left. *Learned* after n episodes: of the "
+        f"{WINDOW} episodes that follow at least {GOALS} reach the goal, in {DURATION_S} s or less at the median; n is "
+        "the least such number.",
+    ]
+    parts += [section(learner, list(group)) for learner, group in groupby(runs, key=lambda run: run.learner)]
     return "\n\n".join(parts) + "\n"
 
 

@@ -45,20 +45,63 @@ def docs(tmp_path, monkeypatch):
     return tmp_path / "docs"
 
 
-def test_table_compares_first_and_last_stretch(tmp_path):
+def test_row_tells_how_it_ended(tmp_path):
     text = results.document([results.Run(make_run(tmp_path / "run"))])
-    # medians over episodes 1..4 and 37..40
-    assert "| 1 | 40 | 0 → 100 | 97.5 → 61.5 | 0.42 → 0.03 | -17.50 → 18.50 | 4 → 0 (4 in all) |" in text
-    assert "| 1 | 1:02:05 | 41 | 1234 | 21 | 77% + 11% + 12% | `aaaaaaaaaa` with changes |" in text
-    assert "First → last 4 episodes" in text
+    # medians over episodes 37 to 40; in the first window of 20 with 19 goals, 4 to 23, they take 86.5 s at the median
+    assert "| 1 | never |  | 100 | 61.5 | 0.03 | 0.00 | 18.50 | 4 |" in text
+    assert "last 4 of 40 episodes" in text
+    assert "**Learned on 0 of 1 seeds.**" in text
+    assert "Each run took 1:02:05 for 1234 decisions, 21 a second" in text and "77% + 11% + 12%" in text
+    assert "Some CPU, 4 cores, Debian; revision `aaaaaaaaaa` with changes." in text
 
 
-def test_runs_are_grouped_by_configuration_and_ordered_by_seed(tmp_path):
+def test_learned_is_told_in_episodes_and_decisions(tmp_path):
+    run = make_run(tmp_path / "run")
+    rows = (run / "episodes.csv").read_text().splitlines()
+    quick = [",".join([*row.split(",")[:3], "9", *row.split(",")[4:]]) for row in rows[7:]]
+    (run / "episodes.csv").write_text("\n".join([*rows[:7], *quick]) + "\n")
+    text = results.document([results.Run(run)])
+    # of episodes 4 to 23 the first is no goal; those of 1 to 3 have 199, 198 and 197 steps
+    assert "| 1 | 3 | 594 | 100 | 9.0 |" in text
+    assert "**Learned on 1 of 1 seeds, after 3 episodes, 3 at the median.**" in text
+
+
+@pytest.mark.parametrize("goals, duration, learned", [(19, 12, 0), (18, 12, None), (19, 12.5, None)])
+def test_what_counts_as_learned(goals, duration, learned):
+    known = dict.fromkeys(Episode.__annotations__, 0) | {"duration_s": duration}
+    episodes = [Episode(**known | {"outcome": "goal" if n < goals else "timeout"}) for n in range(20)]
+    assert results.learned_after(episodes) == learned
+
+
+def test_too_few_episodes_to_have_learned():
+    assert results.learned_after([]) is None
+
+
+def test_runs_are_grouped_by_experiment_and_ordered_by_seed(tmp_path):
     runs = [make_run(tmp_path / "b", 2), make_run(tmp_path / "a", 1), make_run(tmp_path / "c", 1, config="other")]
-    text = results.document([results.Run(path) for path in runs])
-    headings = [line for line in text.splitlines() if line.startswith("## ")]
-    assert headings == ["## other", "## paper"]
-    assert text.index("| 1 | 40") < text.index("| 2 | 40")
+    right = make_run(tmp_path / "d", 1)
+    (right / "config.ini").write_text("[learning]\nseed = 4\n[failure]\nactuator = right_crawler\nmode = locked\n")
+    text = results.document([results.Run(path) for path in [*runs, right]])
+    headings = [line for line in text.splitlines() if line.startswith("#")]
+    assert headings == [
+        "# Results",
+        "## The paper's method",
+        "### other",
+        "### paper",
+        "### paper, actuator = right_crawler",
+    ]
+    assert text.index("| 1 | never") < text.index("| 2 | never")
+    assert "](images/paper-actuator-right_crawler-seeds.png)" in text
+
+
+def test_learners_have_sections_with_what_was_written_of_them(tmp_path, docs):
+    docs.mkdir()
+    (docs / "results_q_learning.md").write_text("What we make of it.\n")
+    planned = make_run(tmp_path / "planned", config="mine")
+    (planned / "config.ini").write_text("[learner]\nkind = planner\n")
+    text = results.document([results.Run(planned), results.Run(make_run(tmp_path / "run"))])
+    assert "## The paper's method\n\nWhat we make of it.\n\n" in text
+    assert text.index("### paper\n") < text.index("## The planner") < text.index("### mine, kind = planner")
 
 
 def test_figures_are_copied_beside_the_page(tmp_path, docs):
@@ -80,12 +123,6 @@ def test_figures_are_those_of_the_seed_that_ended_best(tmp_path, docs):
     assert "](images/paper-seed2-fig8_reward.png)" in text
     assert "](images/paper-seeds.png)" in text
     assert (docs / "images" / "paper-seeds.png").stat().st_size > 10_000
-
-
-def test_notes_are_taken_over(tmp_path, docs):
-    docs.mkdir()
-    (docs / "results_notes.md").write_text("What we make of it.\n")
-    assert "\n\nWhat we make of it.\n\n" in results.document([results.Run(make_run(tmp_path / "run"))])
 
 
 def test_run_that_has_not_finished_is_refused(tmp_path):

@@ -52,7 +52,7 @@ START_TEST(defaults_are_those_of_table_2) {
     ck_assert_float_eq(config.rate_centre, 0.1f);
     ck_assert_float_eq(config.initial_weight, 0.0f);
     ck_assert_float_eq(config.initial_width, 1.0f);
-    ck_assert(!config.exact_gradient);
+    ck_assert(config.exact_gradient);
     ck_assert_int_eq(lh_network_config_validate(&config), LH_OK);
 }
 END_TEST

@@ -7,7 +7,7 @@ static const lh_pose2 start = {3.0f, -1.0f, (float)M_PI_2}; /* facing +y */
 START_TEST(defaults) {
     const lh_episode_config config = lh_episode_config_default();
     ck_assert_float_eq(config.goal_distance, 2.0f);
-    ck_assert_int_eq(config.step_limit, 200);
+    ck_assert_int_eq(config.step_limit, 2000);
     expect_near(config.tumble_tilt, M_PI / 3.0, 1e-6);
     ck_assert_int_eq(config.reset_every, 50);
     ck_assert_int_eq(lh_episode_config_validate(&config), LH_OK);

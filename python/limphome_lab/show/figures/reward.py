@@ -30,23 +30,3 @@ def draw(episodes):
     axes.set_xlim(0, number[-1] + 1)
     axes.legend(loc="lower right", framealpha=0.9, frameon=True, edgecolor="none")
     return figure
-
-
-def draw_seeds(episodes_of_seed):
-    """Running medians of several runs of one experiment: {seed: episodes}."""
-    figure, axes = plt.subplots(figsize=(7.2, 4.2), layout="constrained")
-    for seed, episodes in sorted(episodes_of_seed.items()):
-        axes.plot(
-            [episode.episode for episode in episodes],
-            style.running([episode.reward for episode in episodes]),
-            linewidth=1.5,
-            label=f"seed {seed}",
-        )
-    axes.set(
-        xlabel="episode",
-        ylabel="total reward",
-        title=f"Total reward on every seed, running median of {style.MEDIAN_WINDOW}",
-    )
-    axes.set_xlim(left=0)
-    axes.legend(loc="lower right", framealpha=0.9, frameon=True, edgecolor="none")
-    return figure

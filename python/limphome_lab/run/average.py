@@ -1,0 +1,40 @@
+"""The mean of what a run of Q-learning knew at its last checkpoints.
+
+A greedy policy goes by differences of Q that are no larger than what a few episodes change. The networks of a run have
+one origin, unit by unit, so that their parameters have a mean; in it these changes even out (Polyak averaging).
+"""
+
+from copy import copy
+
+from limphome_lab.runfolder import InputError
+
+
+def read_policy(file):
+    """The network in a checkpoint."""
+    from limphome import checkpoint_t  # LCM is there once all is set up, and --help before
+
+    try:
+        checkpoint = checkpoint_t.decode(file.read_bytes())
+    except ValueError as error:
+        raise InputError(f"{file}: is no checkpoint of this version") from error
+    if checkpoint.learner != checkpoint_t.Q_LEARNING:
+        raise InputError(f"{file}: there is no network in it that could be averaged")
+    return checkpoint.policy
+
+
+def average_policy(folder, count):
+    """The newest policy, but with the mean weights, centres and widths of the last `count` checkpoints."""
+    files = sorted(folder.checkpoints.glob("episode_*.lcm"))[-count:]
+    if not 1 <= count == len(files):
+        raise InputError(f"--average {count}: must be from 1 to the number of checkpoints in {folder.checkpoints}")
+    policies = [read_policy(file) for file in files]
+    mean = copy(policies[-1])
+    mean.weight = means(policy.weight for policy in policies)
+    mean.width = means(policy.width for policy in policies)
+    mean.centre = [means(rows) for rows in zip(*(policy.centre for policy in policies), strict=True)]
+    return mean
+
+
+def means(rows):
+    """Of each column."""
+    return [sum(column) / len(column) for column in zip(*rows, strict=True)]
