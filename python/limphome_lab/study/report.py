@@ -184,7 +184,7 @@ def courses(plan, counted):
         limit = max(learned.duration_limit(each.episodes, case.hard) for each in found)
         style.save(figures.draw_course(found, limit), plan.out / file)
         caption = f"{case.name}: every seed, over the {learned.WINDOW} episodes up to each; dashed: the criterion"
-        blocks += [Heading(3, case.name), Figure(file, caption), Table(SEED, map(seed_row, found))]
+        blocks += [Heading(3, case.name), Figure(file, caption), Table(SEED, [seed_row(each) for each in found])]
     return blocks
 
 
