@@ -119,9 +119,9 @@ COUNTERS = (
 )
 
 
-def begin_manifest(folder, config):
+def begin_manifest(folder, config, programs=PROCESSES):
     """Notes the name of the experiment, before anything has run."""
-    folder.manifest.write_text(json.dumps({"config": config, "parts": []}) + "\n")
+    folder.manifest.write_text(json.dumps({"config": config, "programs": programs, "parts": []}) + "\n")
 
 
 def write_manifest(folder, part):
@@ -131,9 +131,10 @@ def write_manifest(folder, part):
     episodes = folder.read_episodes()
     manifest = {
         "config": begun["config"],
+        "programs": begun["programs"],
         "seed": int(folder.settings()["learning"]["seed"]),
         "settings": as_dict(folder.settings()),
-        "digests": {"robot": digest(folder.robot), **program_digests()},
+        "digests": {"robot": digest(folder.robot), **program_digests(begun["programs"])},
         "result": part["result"],
         "episodes": len(episodes),
         "outcomes": dict(Counter(episode.outcome for episode in episodes)),
@@ -156,8 +157,8 @@ def digest(file):
     return hashlib.sha256(Path(file).read_bytes()).hexdigest()
 
 
-def program_digests():
-    return {name: digest(paths.program(name)) for name in PROCESSES}
+def program_digests(programs):
+    return {name: digest(paths.program(name)) for name in programs}
 
 
 def output(*command):

@@ -49,6 +49,8 @@ def draw_course(outcomes, limit_s):
     lateral.axhline(learned.LATERAL_ERROR_M, color=style.GREEN, linewidth=1, linestyle="--")
     goals.axhline(100 * learned.GOALS / learned.WINDOW, color=style.GREEN, linewidth=1, linestyle="--")
     duration.set(ylabel="median duration [s]", yscale="log")
+    duration.yaxis.set_major_formatter("{x:g}")
+    duration.yaxis.set_minor_formatter("{x:g}")
     lateral.set(ylabel="median |lateral error| [m]", ylim=(0, None))
     goals.set(ylabel="reached the goal [%]", ylim=(-3, 103))
     for axes in (duration, lateral, goals):

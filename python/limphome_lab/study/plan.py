@@ -6,6 +6,7 @@ the run is another, done anew beside the old one.
 """
 
 import configparser
+import functools
 import hashlib
 import json
 import sys
@@ -14,6 +15,7 @@ from pathlib import Path
 
 from limphome_lab import paths, runfolder
 from limphome_lab.run import manifest
+from limphome_lab.study import reference
 
 FINGERPRINT = 8  # hexadecimal digits in a name
 EVALUATION_EPISODES = 1
@@ -40,10 +42,7 @@ class Plan:
     def __init__(self, table, out):
         self.table = table
         self.out = Path(out).absolute()
-        programs = manifest.program_digests()
-        self.runs = [
-            self._run(case, seed, programs) for case in table.cases for seeds in table.seeds.values() for seed in seeds
-        ]
+        self.runs = [self._run(case, seed) for case in table.cases for seeds in table.seeds.values() for seed in seeds]
 
     def folder(self, run):
         return self.out / "runs" / run.name
@@ -69,7 +68,7 @@ class Plan:
         }
         (self.out / "plan.json").write_text(json.dumps(commands, indent=1) + "\n")
 
-    def _run(self, case, seed, programs):
+    def _run(self, case, seed):
         where = f"{self.table.path}: {case.name}"
         config = self._found(case.variant.get("config", "paper.ini"))
         robot = self._found(case.variant.get("robot", "crawler.urdf"))
@@ -80,9 +79,13 @@ class Plan:
         settings = _resolved(config, assignments, where)
         if not robot.is_file():
             raise runfolder.InputError(f"{where}: robot {robot}: no such file")
+        learns = not case.variant.get("reference", False)
+        programs = _digests(manifest.PROCESSES if learns else (reference.PROGRAM,))
         fingerprint = fingerprint_of(settings, {"robot": manifest.digest(robot), **programs})
-        words = _module("train", "--config", config, "--robot", robot, *_set(assignments), "--no-figures", "--quiet")
-        run = Run(case, seed, fingerprint, words)
+        words = ["--config", config, "--robot", robot, *_set(assignments)]
+        if not learns:
+            return Run(case, seed, fingerprint, _module("study.reference", *words))
+        run = Run(case, seed, fingerprint, _module("run.train", *words, "--no-figures", "--quiet"))
         for entry in self.table.evaluations:
             self._add_evaluation(run, entry, config, assignments)
         return run
@@ -95,12 +98,17 @@ class Plan:
             words += ["--selection", entry.get("selection")]
         mark = _hash([run.fingerprint, *map(str, words)])
         folder = f"{run.case.name}-seed{run.seed}-{entry.name}-{mark}"
-        run.evaluations[entry.name] = (folder, _module("evaluate", *words))
+        run.evaluations[entry.name] = (folder, _module("run.evaluate", *words))
 
     def _found(self, name):
         """A file named in the table: beside it, else one of those that come along."""
         beside = self.table.path.parent / name
         return (beside if beside.exists() or Path(name).name != name else paths.CONFIG / name).absolute()
+
+
+@functools.cache
+def _digests(programs):
+    return manifest.program_digests(programs)
 
 
 def fingerprint_of(settings, digests):
@@ -135,4 +143,4 @@ def _set(assignments):
 
 
 def _module(command, *words):
-    return [sys.executable, "-m", f"limphome_lab.run.{command}", *map(str, words)]
+    return [sys.executable, "-m", f"limphome_lab.{command}", *map(str, words)]

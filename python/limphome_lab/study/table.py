@@ -16,7 +16,7 @@ USES = ("tuning", "test")  # of seeds
 GIVEN = {"learning.seed": "seeds", "learning.episodes": "episodes"}  # settings that a table says in its own words
 SELECTIONS = ("greedy", "boltzmann")
 OWN = {  # keys of an entry beside the settings it makes
-    "variants": {"config": str, "robot": str, "episodes": int, "hard": bool},
+    "variants": {"config": str, "robot": str, "episodes": int, "hard": bool, "reference": bool},
     "failures": {"hard": bool},
     "grounds": {"hard": bool},
     "evaluations": {"episodes": int, "selection": str},

@@ -82,7 +82,7 @@ def test_crosses_say_which_and_none_comes_twice(read):
         (
             "config =",
             "confg =",
-            "variants.one.confg: not known; allowed are config, robot, episodes, hard and settings",
+            "variants.one.confg: not known; allowed are config, robot, episodes, hard, reference and settings",
         ),
         ('config = "paper.ini"', "config = 3", "variants.one.config: must be a text"),
         ("0.8", "[0.8]", "variants.one.learning.discount_rate: a setting must be a number or a text"),
