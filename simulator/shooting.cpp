@@ -1,12 +1,13 @@
 // limphome-shooting: what can be reached where the world is known. Drives the simulated machine by random shooting:
-// before each decision it tries some hundred sequences of joint actions on the exact world as it stands, does the first
-// action of the best and plans anew. It learns nothing; learners are compared with it.
+// before each decision it tries a hundred sequences of joint actions on the exact world as it stands, in rounds that
+// vary the best of the round before, does the first action of the best and plans anew. It learns nothing; learners are
+// compared with it.
 //
 // A process is the copy of a world: each sequence is tried in a child of its own, made by fork(), which tells what it
 // came to by a pipe. There are as many at a time as there are processors, and the result does not depend on how many.
 //
-// Takes the options of limphome-simulator and drives [learning] episodes of the task, as the controller sets it,
-// without path. Writes rows as in episodes.csv to stdout; rewards are not computed and told as nan. Exit 1: something
+// Takes the options of limphome-simulator and drives [learning] episodes of the task, with rolling goal lines whatever
+// the path. Writes rows as in episodes.csv to stdout; rewards are not computed and told as nan. Exit 1: something
 // went wrong on the way; 2: bad input.
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -30,10 +32,11 @@
 namespace limphome {
 namespace {
 
-constexpr int horizon = 12;       // decisions looked ahead
-constexpr int candidates = 300;   // sequences tried before each decision
-constexpr int longest_hold = 4;   // decisions for which a drawn action is held
-constexpr int first_drawn = 150;  // of the candidates: those before it vary the last plan, the others are drawn anew
+constexpr int horizon = 12;      // decisions looked ahead
+constexpr int rounds = 4;        // before each decision
+constexpr int sequences = 30;    // of a round
+constexpr int drawn = 15;        // of the first round, without regard to the last plan
+constexpr int longest_hold = 4;  // decisions for which a drawn action is held
 
 using Action = std::array<double, max_actuators>;  // wanted rates, as in Machine::command
 using Sequence = std::array<Action, horizon>;
@@ -155,12 +158,23 @@ bool Shooting::drive_episode(int64_t episode) {
 
 // Makes plan_ the best of the sequences tried.
 void Shooting::decide(const Place &start) {
-    std::vector<Sequence> tried = {plan_};
-    while (tried.size() < candidates) {
-        tried.push_back(tried.size() < first_drawn ? vary_plan() : draw_sequence());
+    double best = -std::numeric_limits<double>::infinity();
+    for (int round = 0; round < rounds; round++) {
+        std::vector<Sequence> tried;
+        if (round == 0) {
+            tried.push_back(plan_);
+            std::generate_n(std::back_inserter(tried), drawn, [this] { return draw_sequence(); });
+        }
+        while (tried.size() < sequences) {
+            tried.push_back(vary_plan());
+        }
+        const std::vector<double> values = try_all(tried, start);
+        const auto most = std::max_element(values.begin(), values.end());
+        if (*most > best) {
+            best = *most;
+            plan_ = tried[static_cast<std::size_t>(most - values.begin())];
+        }
     }
-    const std::vector<double> values = try_all(tried, start);
-    plan_ = tried[static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin())];
 }
 
 // One decision; whether the robot still stands after it.
@@ -241,7 +255,7 @@ Sequence Shooting::draw_sequence() {
     return sequence;
 }
 
-// The plan with another action in one stretch of it.
+// The best plan so far with another action in one stretch of it.
 Sequence Shooting::vary_plan() {
     Sequence sequence = plan_;
     const int first = draw(horizon);
