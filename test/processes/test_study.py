@@ -81,7 +81,7 @@ def test_failed_runs_are_told_of(study, tmp_path):
     assert result.returncode == 1
     assert complete(tmp_path / "study") == {}
     report = (tmp_path / "study" / "report.md").read_text()
-    assert report.count("| failed: ") == 3
+    assert report.count("| run | failed: ") == 3
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ import sys
 from limphome_lab import command, network, runfolder
 from limphome_lab.ending import with_exit_code
 from limphome_lab.run.average import average_policy
+from limphome_lab.run.manifest import Part, begin_manifest, write_manifest
 from limphome_lab.run.pair import Pair
 from limphome_lab.run.processes import raise_on_signals
 from limphome_lab.show.progress import Progress
@@ -60,8 +61,12 @@ def evaluation_folder(trained, assignments, out=None):
 def evaluate(folder, policy, url):
     episodes = int(folder.settings()["learning"]["episodes"])
     tail = runfolder.EpisodeTail(folder.episodes)
+    progress = Progress(episodes, quiet=not sys.stderr.isatty())
+    begin_manifest(folder, "evaluation")
+    part = Part(folder)
     with Pair(folder, url, ["--evaluate", policy]) as pair:
-        pair.run(tail, Progress(episodes, quiet=not sys.stderr.isatty()))
+        pair.run(tail, progress)
+    write_manifest(folder, part.measure("finished", progress.simulated_s))
     return summarise(folder.read_episodes())
 
 

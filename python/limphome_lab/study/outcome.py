@@ -9,6 +9,7 @@ from limphome_lab.study import learned
 from limphome_lab.study.plan import is_asked_for
 
 LOG_TAIL = 3  # lines that tell why a run failed
+CHANGED = "robot or programs were changed while the study was under way"
 
 
 @dataclass
@@ -25,6 +26,7 @@ class Outcome:
     wall_time_s: float = 0.0
     manifest: dict = field(default_factory=dict)
     evaluations: dict = field(default_factory=dict)  # summary by name
+    not_evaluated: dict = field(default_factory=dict)  # why, by name
 
     @property
     def tumbles(self):
@@ -34,14 +36,14 @@ class Outcome:
 def read(plan, run):
     """The Outcome of one plan.Run."""
     use = "test" if run.seed in plan.table.seeds["test"] else "tuning"
-    folder = plan.folder(run)
-    if not folder.exists():
+    folder = runfolder.RunFolder(plan.folder(run))
+    if not folder.path.exists():
         return Outcome(run.seed, use, [], missing=why_missing(plan, run.name))
-    if not is_asked_for(run, folder):
-        return Outcome(run.seed, use, [], missing="robot or programs were changed while the study was under way")
-    episodes, hard = runfolder.RunFolder(folder).read_episodes(), run.case.hard
-    manifest = json.loads(runfolder.RunFolder(folder).manifest.read_text())
-    return Outcome(
+    manifest = json.loads(folder.manifest.read_text())
+    if not is_asked_for(run, manifest):
+        return Outcome(run.seed, use, [], missing=CHANGED)
+    episodes, hard = folder.read_episodes(), run.case.hard
+    found = Outcome(
         run.seed,
         use,
         episodes,
@@ -50,17 +52,21 @@ def read(plan, run):
         robot_minutes=learned.robot_minutes(episodes, hard),
         wall_time_s=manifest["wall_time_s"],
         manifest=manifest,
-        evaluations=read_evaluations(plan, run),
     )
+    for name in run.evaluations:
+        read_evaluation(plan, run, name, found)
+    return found
 
 
-def read_evaluations(plan, run):
-    folders = {name: plan.evaluation_folder(run, name) for name in run.evaluations}
-    return {
-        name: summarise(runfolder.RunFolder(folder).read_episodes())
-        for name, folder in folders.items()
-        if folder.exists()
-    }
+def read_evaluation(plan, run, name, found):
+    """Adds an evaluation to the Outcome of its run."""
+    folder = runfolder.RunFolder(plan.evaluation_folder(run, name))
+    if not folder.path.exists():
+        found.not_evaluated[name] = why_missing(plan, folder.path.name)
+    elif json.loads(folder.manifest.read_text())["digests"] != found.manifest["digests"]:
+        found.not_evaluated[name] = CHANGED
+    else:
+        found.evaluations[name] = summarise(folder.read_episodes())
 
 
 def why_missing(plan, name):

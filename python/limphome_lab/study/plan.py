@@ -93,9 +93,8 @@ class Plan:
     def _add_evaluation(self, run, entry, config, assignments):
         where = f"{self.table.path}: evaluations.{entry.name} of {run.case.name}"
         _resolved(config, [*assignments, *entry.settings], where)
-        words = ["--episodes", entry.get("episodes", EVALUATION_EPISODES), *_set(entry.settings)]
-        if "selection" in entry.own:
-            words += ["--selection", entry.get("selection")]
+        options = {"episodes": EVALUATION_EPISODES, **entry.own}
+        words = [word for key, value in options.items() for word in (f"--{key}", value)] + _set(entry.settings)
         mark = _hash([run.fingerprint, *map(str, words)])
         folder = f"{run.case.name}-seed{run.seed}-{entry.name}-{mark}"
         run.evaluations[entry.name] = (folder, _module("run.evaluate", *words))
@@ -116,10 +115,9 @@ def fingerprint_of(settings, digests):
     return _hash([settings, digests])
 
 
-def is_asked_for(run, folder):
-    """Whether the run in `folder` followed from what its name says."""
-    written = json.loads(runfolder.RunFolder(folder).manifest.read_text())
-    return fingerprint_of(written["settings"], written["digests"]) == run.fingerprint
+def is_asked_for(run, manifest):
+    """Whether the run that left this manifest followed from what its folder's name says."""
+    return fingerprint_of(manifest["settings"], manifest["digests"]) == run.fingerprint
 
 
 def _hash(value):

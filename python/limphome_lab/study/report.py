@@ -107,8 +107,13 @@ def provenance(counted):
 
 def missing(outcomes):
     """What does not count, and why."""
-    rows = [(case.name, each.seed, each.missing) for case, found in outcomes.items() for each in found if each.missing]
-    return [Heading(2, "Not counted"), Table(("case", "seed", "why"), rows)] if rows else []
+    rows = []
+    for case, found in outcomes.items():
+        for each in found:
+            if each.missing:
+                rows.append((case.name, each.seed, "run", each.missing))
+            rows += [(case.name, each.seed, name, why) for name, why in each.not_evaluated.items()]
+    return [Heading(2, "Not counted"), Table(("case", "seed", "what", "why"), rows)] if rows else []
 
 
 def results(use, counted):

@@ -19,7 +19,7 @@ OWN = {  # keys of an entry beside the settings it makes
     "variants": {"config": str, "robot": str, "episodes": int, "hard": bool, "reference": bool},
     "failures": {"hard": bool},
     "grounds": {"hard": bool},
-    "evaluations": {"episodes": int, "selection": str},
+    "evaluations": {"episodes": int, "selection": str, "average": int},
 }
 WORDS = {str: "a text", int: "a whole number from 1", bool: "true or false", dict: "a table"}
 

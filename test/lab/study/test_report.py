@@ -60,7 +60,9 @@ def study(tmp_path):
             "revision": {"commit": "a" * 40, "dirty": False},
         }
         (made.folder(run) / "manifest.json").write_text(json.dumps(manifest))
-        write_episodes(made.evaluation_folder(run, "greedy"), [("goal", 33)])
+        evaluation = made.evaluation_folder(run, "greedy")
+        write_episodes(evaluation, [("goal", 33)])
+        (evaluation / "manifest.json").write_text(json.dumps({"digests": DIGESTS}))
     (made.out / "logs").mkdir()
     (made.out / "logs" / f"{made.runs[-1].name}.log").write_text("It broke.\n")
     return made
@@ -93,7 +95,7 @@ def test_every_seed_has_its_row_and_every_case_its_figure(page):
 
 def test_failed_run_is_told_of_and_not_counted(page):
     assert "## Not counted" in page.markdown
-    assert "| learner-locked-flat | 14 | failed: It broke. |" in page.markdown
+    assert "| learner-locked-flat | 14 | run | failed: It broke. |" in page.markdown
 
 
 def test_html_says_the_same(page):
@@ -108,7 +110,15 @@ def test_run_that_is_not_what_its_name_says_does_not_count(study):
     manifest = study.folder(study.runs[1]) / "manifest.json"
     manifest.write_text(manifest.read_text().replace('"simulator": "2"', '"simulator": "9"'))
     markdown, _ = report.write_report(study)
-    assert "| learner-locked-flat | 11 | robot or programs were changed while the study" in markdown.read_text()
+    assert "| learner-locked-flat | 11 | run | robot or programs were changed while the study" in markdown.read_text()
+
+
+def test_evaluation_by_other_programs_does_not_count(study):
+    manifest = study.evaluation_folder(study.runs[1], "greedy") / "manifest.json"
+    manifest.write_text(json.dumps({"digests": {}}))
+    markdown, _ = report.write_report(study)
+    assert "| learner-locked-flat | 11 | greedy | robot or programs were changed" in markdown.read_text()
+    assert "| learner-locked-flat | greedy | 2 | 2 of 2 |" in markdown.read_text()
 
 
 def test_what_the_tables_hold_is_escaped():
