@@ -36,17 +36,17 @@
 #define LH_MAX_ACTIONS 6561 /* joint actions, LH_ACTION_LEVELS ^ LH_MAX_ACTUATORS */
 #endif
 #ifndef LH_MAX_SAMPLES
-#define LH_MAX_SAMPLES 1024 /* measured motions that the planner keeps */
+#define LH_MAX_SAMPLES 1024 /* measured motions that the planner keeps, a multiple of 16 */
 #endif
 #ifndef LH_MAX_POSTURES
 #define LH_MAX_POSTURES 1200 /* postures of the arm for which it plans */
 #endif
 #ifndef LH_MAX_PLANNED
-#define LH_MAX_PLANNED 5 /* actuators it plans with, of which LH_PLANNED_JOINTS at most are joints */
+#define LH_MAX_PLANNED 5 /* actuators it plans with: LH_PLANNED_JOINTS joints and two crawlers; 4: one crawler */
 #endif
 
 #define LH_PLANNED_JOINTS 3
-#define LH_PLANNED_ACTIONS 243 /* LH_ACTION_LEVELS ^ LH_MAX_PLANNED */
+#define LH_PLANNED_ACTIONS (LH_MAX_PLANNED == 4 ? 81 : 243) /* LH_ACTION_LEVELS ^ LH_MAX_PLANNED */
 
 #define LH_ACTION_LEVELS 3                         /* reverse, still, forward: Table 1 */
 #define LH_MAX_INPUTS (2 * LH_MAX_ACTUATORS + 2)   /* states and actions of all actuators, roll, pitch */

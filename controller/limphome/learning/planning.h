@@ -38,12 +38,12 @@ typedef struct lh_option {
     float angle[LH_PLANNED_JOINTS]; /* then [rad] */
 } lh_option;
 
-/* The posture looked at is angle[planned.num_joints]. False if the action is not allowed there. */
-bool lh_planning_consider(const lh_planner *planner, const float *angle, lh_course course, int32_t action,
+/* What comes of an action in the posture looked at, which is angle[planned.num_joints]. */
+void lh_planning_consider(const lh_planner *planner, const float *angle, lh_course course, int32_t action,
                           lh_option *option);
 
-/* The one that promises most, by a search of two steps. The posture looked at is angle[planned.num_joints], and after
- * the call another. */
+/* The one that promises most of those that are allowed, by a search of two steps; to stand still where none is. The
+ * posture looked at is angle[planned.num_joints], and after the call another. */
 lh_option lh_planning_choose(lh_planner *planner, const float *angle, lh_course course);
 
 #endif

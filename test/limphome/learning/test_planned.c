@@ -106,7 +106,7 @@ START_TEST(its_actions_are_actions_of_the_task) {
         lh_action_levels(lh_planned_joint_action(&planned, a), 6, levels);
         ck_assert_mem_eq(levels, expected, sizeof levels);
         ck_assert_mem_eq(lh_planned_joint_levels(&planned, a), expected + 1, 3);
-        ck_assert_int_eq(lh_planned_is_still(&planned, a),
+        ck_assert_int_eq(a == lh_planned_still(&planned),
                          expected[0] == 1 && expected[1] == 1 && expected[2] == 1 && expected[3] == 1);
     }
 }
