@@ -3,8 +3,8 @@
 set(limphome_test_modules
   base/error base/random base/vector body/kinematics body/quasi_static body/rest body/robot body/stability
   task/action task/episode task/observation task/path task/reward task/task
-  learning/boltzmann learning/learner learning/motion_model learning/network learning/planned learning/posture_values
-  learning/q_learning
+  learning/boltzmann learning/learner learning/motion_model learning/network learning/planned learning/planner
+  learning/planning learning/posture_values learning/q_learning
   controller limits runs)
 
 # Adds the program test_TOPIC of a module, whose tests lie in `folder`, with further sources; names the topic in `result`.
