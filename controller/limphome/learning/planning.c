@@ -59,9 +59,11 @@ void lh_planning_assess(lh_planner *planner) {
 /* What mechanics says each action does. Where the arm does not carry, its joints do not matter, and the crawlers'
  * digits, which are the lowest of an action's number, decide alone. On level ground the opposite of an action, its
  * number counted from the end, does the opposite. */
-static void expect(const lh_planner *planner, const lh_footing *footing, bool braced, lh_twist *expected) {
+static void expect(const lh_planner *planner, lh_outlook *outlook) {
     const lh_planned *planned = &planner->planned;
-    int32_t different = braced ? planned->num_actions : planned->num_crawler_actions;
+    const lh_footing *footing = &outlook->footing;
+    lh_twist *expected = outlook->expected;
+    int32_t different = outlook->rest.braced ? planned->num_actions : planned->num_crawler_actions;
     for (int32_t a = 0; a < planned->num_actions; a++) {
         int32_t opposite = planned->num_actions - 1 - a;
         if (a >= different) {
@@ -84,10 +86,9 @@ void lh_planning_look(lh_planner *planner, const float *angle) {
     float joint_angle[LH_MAX_ACTUATORS];
     find_rest(planner, angle, joint_angle, &outlook->rest);
     if (planner->config.mechanics) {
-        lh_footing footing;
         lh_footing_find(&planner->robot, joint_angle, &outlook->rest, planner->up, planner->planned.travel, FRICTION,
-                        &footing);
-        expect(planner, &footing, outlook->rest.braced, outlook->expected);
+                        &outlook->footing);
+        expect(planner, outlook);
     }
     lh_motion_model_gather(&planner->learned.model, angle, outlook->sums);
 }
@@ -206,7 +207,7 @@ static int32_t rank(lh_option *best, int32_t count, int32_t most, const lh_optio
 }
 
 lh_option lh_planning_choose(lh_planner *planner, const float *angle, lh_course course) {
-    lh_option best[LH_CANDIDATES_MAX];
+    lh_option *best = planner->best;
     lh_planning_consider(planner, angle, course, lh_planned_still(&planner->planned), &best[0]);
     int32_t count = 0;
     for (int32_t a = 0; a < planner->planned.num_actions; a++) {
