@@ -208,7 +208,7 @@ START_TEST(against_a_search_in_double_precision) {
         const float arm = -2.4f * lh_random_uniform(&random);
         const lh_posture posture = posture_at(&robot, swing, boom, arm, no_rotation);
         const lh_rest rest = rest_at(&robot, swing, boom, arm, level);
-        point normal;
+        point normal = {0.0, 0.0, 0.0};
         ck_assert(lowest_rest(&posture, robot.num_supports, &normal));
         expect_near(rest.normal.x, normal.x, 1e-5);
         expect_near(rest.normal.y, normal.y, 1e-5);
