@@ -84,10 +84,20 @@ static lh_planner_config convert_planner(const settings *s) {
     };
 }
 
+static lh_learner_kind convert_learner_kind(int64_t kind) {
+    switch ((enum settings_learner)kind) {
+        case SETTINGS_Q_LEARNING:
+            return LH_Q_LEARNING;
+        case SETTINGS_PLANNER:
+            return LH_PLANNER;
+    }
+    return LH_Q_LEARNING;
+}
+
 lh_config convert_config(const settings *s) {
     lh_config config = lh_config_default();
     config.task = convert_task(s);
-    config.learner.kind = s->learner.kind == SETTINGS_PLANNER ? LH_PLANNER : LH_Q_LEARNING;
+    config.learner.kind = convert_learner_kind(s->learner.kind);
     config.learner.seed = (uint64_t)s->learning.seed;
     config.learner.q_learning = convert_q_learning(s);
     config.learner.planner = convert_planner(s);

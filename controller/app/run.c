@@ -85,7 +85,7 @@ static bool restore_learner(run *r) {
     }
     lh_learned restored;
     if (!learned_restore(&r->learned, &r->controller, &restored)) {
-        return fail_with(r->error, "what was learned is for other actuators, speeds, ranges or periods");
+        return fail_with(r->error, "what was learned is for other actuators, speeds, ranges, periods or mechanics");
     }
     const lh_error error = lh_controller_restore(&r->controller, &restored, r->finished + 1);
     return error == LH_OK || fail_with(r->error, "what was learned cannot be taken up: %s", lh_error_text(error));

@@ -24,7 +24,7 @@ FAULTS = {
 }
 
 
-def learn(out, **faults):
+def learn(out, config=SMOKE, **faults):
     """Ten episodes on a fake plant; returns its report and the run folder."""
     prefix = network.private_prefix()
     if prefix is None:
@@ -32,7 +32,7 @@ def learn(out, **faults):
     controller = [
         paths.program("controller"),
         "--config",
-        SMOKE,
+        config,
         "--robot",
         ROOT / "config" / "crawler.urdf",
         "--out",
@@ -80,6 +80,14 @@ def test_faults_change_nothing_that_is_learned(tmp_path, clean, faults):
     assert folder.policy.read_bytes() == clean[1].policy.read_bytes()
     decided = Counter((decision.session, decision.seq) for _, decision in recorded(folder.messages, DECISION))
     assert max(decided.values()) == 1
+
+
+def test_faults_change_nothing_that_a_planner_learns(tmp_path):
+    config = ROOT / "config" / "default.ini"
+    clean, mistreated = learn(tmp_path / "clean", config), learn(tmp_path / "run", config, **FAULTS["all at once"])
+    assert mistreated[0]["exit_code"] == mistreated[0]["differing"] == 0
+    assert mistreated[1].episodes.read_bytes() == clean[1].episodes.read_bytes()
+    assert mistreated[1].policy.read_bytes() == clean[1].policy.read_bytes()
 
 
 def test_garbage_is_counted(tmp_path):

@@ -1,4 +1,4 @@
-"""What is learned does not change unnoticed: SHA-256 of what two runs of 60 short episodes left behind.
+"""What is learned does not change unnoticed: SHA-256 of what runs of 60 short episodes left behind.
 
 A change of recorded.json says that the learner, the task or the physics has changed, and is a decision of its own. The
 library gives the same bits everywhere; the simulator's depend on the C library's sine, which has two forms on x86-64.
