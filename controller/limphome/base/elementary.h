@@ -38,6 +38,14 @@ static inline bool lh_within(float x, float low, float high) {
     return x == x && x >= low && x <= high;
 }
 
+/* x, limited to low..high; low for NaN. */
+static inline float lh_clip(float x, float low, float high) {
+    if (x != x || x < low) {
+        return low;
+    }
+    return x > high ? high : x;
+}
+
 /* False for NaN and infinity. */
 static inline bool lh_finite(float x) {
     return lh_within(x, -FLT_MAX, FLT_MAX);

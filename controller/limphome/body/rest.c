@@ -30,12 +30,9 @@ static bool find_plane(const lh_robot *robot, const lh_posture *posture, const i
     lh_vec3 normal =
         lh_vec3_cross(lh_vec3_sub(posture->supports[corner[1]], a), lh_vec3_sub(posture->supports[corner[2]], a));
     float length = lh_vec3_norm(normal);
-    if (length * length < LEAST_SQUARE) {
-        return false;
-    }
     ground->point = a;
     ground->normal = lh_vec3_scale(normal, (normal.z < 0.0f ? -1.0f : 1.0f) / length);
-    if (ground->normal.z < LEAST_LEVEL) {
+    if (length * length < LEAST_SQUARE || ground->normal.z < LEAST_LEVEL) {
         return false;
     }
     for (int32_t i = 0; i < robot->num_supports; i++) {

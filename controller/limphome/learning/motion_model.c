@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "limphome/base/elementary.h"
+
 #define UNITS_PER_WIDTH 512.0f                 /* of a coordinate of a posture, per width of the kernel */
 #define UNIT_SQUARE (1.0f / (512.0f * 512.0f)) /* brings a squared distance to kernel widths */
 #define NARROW_SQUARE (512u * 512u)            /* squared distance where the narrow kernel ends: 1 width */
@@ -14,12 +16,8 @@
 
 _Static_assert(LH_MAX_SAMPLES % BLOCK == 0, "a block lies within the samples");
 
-static float clip(float x, float low, float high) {
-    return x > low ? (x < high ? x : high) : low;
-}
-
 static int16_t nearest(float x) {
-    x = clip(x, -32767.0f, 32767.0f);
+    x = lh_clip(x, -32767.0f, 32767.0f);
     return (int16_t)(x < 0.0f ? x - 0.5f : x + 0.5f);
 }
 
@@ -40,7 +38,7 @@ static void coordinates(const lh_motion_model *model, const float *angle, int16_
         posture[k] = 0;
         if (k < model->num_joints) {
             float scaled = (angle[k] - model->low[k]) / model->width[k] * UNITS_PER_WIDTH;
-            posture[k] = nearest(clip(scaled, -UNITS_PER_WIDTH, COORDINATE_MAX));
+            posture[k] = nearest(lh_clip(scaled, -UNITS_PER_WIDTH, COORDINATE_MAX));
         }
     }
 }
@@ -48,10 +46,10 @@ static void coordinates(const lh_motion_model *model, const float *angle, int16_
 /* Squared distances of BLOCK samples from `first` on, in units of a coordinate. */
 static inline void distances(const lh_motion_model *model, const int16_t *posture, int32_t first, uint32_t *square) {
     for (int32_t i = 0; i < BLOCK; i++) {
-        int32_t d0 = model->posture[0][first + i] - posture[0];
-        int32_t d1 = model->posture[1][first + i] - posture[1];
-        int32_t d2 = model->posture[2][first + i] - posture[2];
-        square[i] = (uint32_t)(d0 * d0) + (uint32_t)(d1 * d1) + (uint32_t)(d2 * d2);
+        uint32_t d0 = (uint32_t)(model->posture[0][first + i] - posture[0]);
+        uint32_t d1 = (uint32_t)(model->posture[1][first + i] - posture[1]);
+        uint32_t d2 = (uint32_t)(model->posture[2][first + i] - posture[2]);
+        square[i] = d0 * d0 + d1 * d1 + d2 * d2; /* of negative ones, too, modulo 2^32 */
     }
 }
 
@@ -105,7 +103,7 @@ void lh_motion_model_insert(lh_motion_model *model, int32_t action, const float 
         model->posture[k][place] = towards(model->posture[k][place], posture[k], share);
     }
     for (int32_t k = 0; k < LH_MOTION_PARTS; k++) {
-        int16_t part = nearest(clip(parts[k], -1.99f, 1.99f) * MOTION_UNITS);
+        int16_t part = nearest(lh_clip(parts[k], -1.99f, 1.99f) * MOTION_UNITS);
         model->motion[k][place] = towards(model->motion[k][place], part, share);
     }
     if (model->count[place] < LH_SAMPLE_COUNT_MAX) {

@@ -142,8 +142,8 @@ static void watch_progress(lh_planner *planner, const lh_observed *observed) {
     if (begins || observed->goal_distance < planner->best_distance - PROGRESS) {
         planner->best_distance = observed->goal_distance;
         planner->stalled = 0;
-    } else {
-        planner->stalled += planner->stalled < STALLED;
+    } else if (planner->stalled < STALLED) {
+        planner->stalled++;
     }
 }
 
@@ -188,7 +188,9 @@ void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool lear
         learn(planner, &observed->pose, angle);
         choice->learned = true;
     }
-    learned->decisions += learned->decisions < LH_LAST_DECISION;
+    if (learned->decisions < LH_LAST_DECISION) {
+        learned->decisions++;
+    }
     watch_progress(planner, observed);
     if (observed->reset) {
         return;
@@ -207,7 +209,8 @@ void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool lear
 
     lh_option chosen = choose(planner, angle, course, greedy);
     choice->action = lh_planned_joint_action(&planner->planned, chosen.action);
-    choice->q = choice->q_max = chosen.value;
+    choice->q = chosen.value;
+    choice->q_max = chosen.value;
     choice->probability = 1.0f;
     planner->action = chosen.action;
     planner->expected = chosen.expected;
@@ -225,9 +228,9 @@ lh_error lh_planner_restore(lh_planner *planner, const lh_planner_learned *saved
     lh_planner_learned *learned = &planner->learned;
     lh_vec3 ground = saved->ground;
     bool good = lh_motion_model_fits(&saved->model, &learned->model) &&
-                lh_posture_values_fit(&saved->values, &learned->values) &&
-                is_count(saved->turn, 0, learned->values.num_nodes - 1) &&
-                is_count(saved->decisions, 0, LH_LAST_DECISION) && lh_within(ground.x, -1.0f, 1.0f) &&
+                lh_posture_values_fit(&saved->values, &learned->values) && saved->turn >= 0 &&
+                saved->turn < learned->values.num_nodes && saved->decisions >= 0 &&
+                saved->decisions <= LH_LAST_DECISION && lh_within(ground.x, -1.0f, 1.0f) &&
                 lh_within(ground.y, -1.0f, 1.0f) && lh_within(ground.z, 0.999f * LH_LEAST_GROUND, 1.001f) &&
                 lh_within(lh_vec3_norm(ground), 0.999f, 1.001f);
     if (!good) {

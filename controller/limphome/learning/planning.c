@@ -16,10 +16,6 @@ static float magnitude(float x) {
     return x < 0.0f ? -x : x;
 }
 
-static float clip(float x, float low, float high) {
-    return x < low ? low : (x > high ? high : x);
-}
-
 float lh_course_steering(lh_course course) {
     return course.heading + LH_STEERING_GAIN * course.lateral;
 }
@@ -33,7 +29,7 @@ static float steering_cost(const lh_planner *planner, float error) {
 
 /* Cost of standing for a decision in a posture with this margin [m]. */
 static float standing_cost(const lh_planner *planner, float margin) {
-    float lacking = clip(1.0f - margin / SAFE_MARGIN, 0.0f, LACKING_MAX);
+    float lacking = lh_clip(1.0f - margin / SAFE_MARGIN, 0.0f, LACKING_MAX);
     return planner->task.reward.stability * lh_exp(-margin) + planner->config.unsafe * lacking;
 }
 

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "limphome/base/elementary.h"
+
 #define VALUE_UNITS 256.0f
 #define COST_UNITS 1024.0f
 
@@ -92,7 +94,7 @@ void lh_posture_cell(const lh_posture_values *values, const float *angle, lh_cel
         if (k < values->num_joints && values->count[k] > 1) {
             float scaled = (angle[k] - values->low[k]) / values->spacing[k];
             float last = (float)(values->count[k] - 1);
-            scaled = scaled > 0.0f ? (scaled < last ? scaled : last) : 0.0f;
+            scaled = lh_clip(scaled, 0.0f, last);
             place = (int32_t)scaled;
             place = place > values->count[k] - 2 ? values->count[k] - 2 : place;
             share = scaled - (float)place;
@@ -128,14 +130,14 @@ float lh_posture_cost(const lh_posture_values *values, const lh_cell *cell) {
 /* Where `steering` lies between column k and the next, 0 to 1. */
 static float share_of_next(int32_t k, float steering) {
     float x = (steering - steerings[k]) * reciprocals[k];
-    return x < 0.0f ? 0.0f : (x > 1.0f ? 1.0f : x);
+    return lh_clip(x, 0.0f, 1.0f);
 }
 
 /* Columns round `steering`: the first of the two and the share of the second. */
 static int32_t column(float steering, float *share) {
     int32_t k = 0;
     for (int32_t i = 1; i < LH_STEERINGS - 1; i++) {
-        k += steering >= steerings[i];
+        k = steering >= steerings[i] ? i : k;
     }
     *share = share_of_next(k, steering);
     return k;
@@ -173,7 +175,7 @@ float lh_posture_node_value(const lh_posture_values *values, int32_t node, int32
 }
 
 static int16_t rounded(float x) {
-    x = x < -32767.0f ? -32767.0f : (x > 32767.0f ? 32767.0f : x);
+    x = lh_clip(x, -32767.0f, 32767.0f);
     return (int16_t)(x < 0.0f ? x - 0.5f : x + 0.5f);
 }
 

@@ -218,6 +218,16 @@ START_TEST(wrapped_angles) {
 }
 END_TEST
 
+START_TEST(limited_to_a_range) {
+    ck_assert_float_eq(lh_clip(1.5f, 1.0f, 2.0f), 1.5f);
+    ck_assert_float_eq(lh_clip(0.5f, 1.0f, 2.0f), 1.0f);
+    ck_assert_float_eq(lh_clip(2.5f, 1.0f, 2.0f), 2.0f);
+    ck_assert_float_eq(lh_clip(-INFINITY, 1.0f, 2.0f), 1.0f);
+    ck_assert_float_eq(lh_clip(INFINITY, 1.0f, 2.0f), 2.0f);
+    ck_assert_float_eq(lh_clip(NAN, 1.0f, 2.0f), 1.0f);
+}
+END_TEST
+
 START_TEST(ranges) {
     ck_assert(lh_within(1.0f, 1.0f, 2.0f) && lh_within(2.0f, 1.0f, 2.0f));
     ck_assert(!lh_within(0.999f, 1.0f, 2.0f) && !lh_within(2.001f, 1.0f, 2.0f) && !lh_within(NAN, 1.0f, 2.0f));
@@ -241,6 +251,7 @@ Suite *suite(void) {
     tcase_add_test(t, square_root_is_correctly_rounded);
     tcase_add_test(t, wrapped_angles);
     tcase_add_test(t, ranges);
+    tcase_add_test(t, limited_to_a_range);
     suite_add_tcase(s, t);
     return s;
 }
