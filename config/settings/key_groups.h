@@ -11,7 +11,9 @@
            "how it fails; slipping: the drive works, but the belt has lost its friction")                            \
     REAL(section, weak_factor, 0, 1, 0.3, DECIDES, "torque limit left to a weak drive, as a share of the rated one") \
     REAL(section, slip_factor, 0, 1, 0.05, DECIDES, "friction left to a slipping crawler, as a share")               \
-    REAL(section, at_s, 0, 1e6, 0, DECIDES, "time since the reset at which it fails [s]")
+    REAL(section, at_s, 0, 1e6, 0, DECIDES, "time since the reset at which it fails [s]")                            \
+    WHOLE(section, at_episode, 0, 1000000, 0, DECIDES,                                                               \
+          "it fails from the first reset at or after this episode on; 0: from the start")
 
 /* Errors of the sensors of one quantity, `high` at most; `of` says what they read, with its unit. All 0: exact.
  * SENSOR_REAL(quantity, name, ...) is REAL for the field sensors.quantity.name, whose key is quantity_name. */

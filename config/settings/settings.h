@@ -36,7 +36,7 @@ extern "C" {
 #define SENSOR_REAL(quantity, name, ...) double name;
 #define PATH(section, name, ...) settings_path name;
 
-/* One actuator that fails: actuator, mode, weak_factor, slip_factor, at_s. */
+/* One actuator that fails: actuator, mode, weak_factor, slip_factor, at_s, at_episode. */
 typedef struct settings_failure {
     SETTINGS_FAILURE_KEYS(, )
 } settings_failure;

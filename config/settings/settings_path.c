@@ -108,9 +108,17 @@ const char *settings_path_file(const char *text) {
     return text + strspn(text, blanks);
 }
 
+/* Takes the \n or \r\n off a line. False if it has none without being the last, or a \r elsewhere. */
+static bool end_line(char *line, bool last) {
+    char *end = line + strcspn(line, "\r\n");
+    const bool ends = strcmp(end, "\n") == 0 || strcmp(end, "\r\n") == 0 || (last && *end == '\0');
+    *end = '\0';
+    return ends;
+}
+
 /* Takes one line of a file of waypoints, which may be empty. */
 static bool take_line(settings_path *path, char *line, const char *place, char *error) {
-    line[strcspn(line, ";#\r\n")] = '\0';
+    line[strcspn(line, ";#")] = '\0';
     const char *rest = line + strspn(line, blanks);
     if (*rest == '\0') {
         return true;
@@ -138,8 +146,9 @@ bool settings_path_read(const char *file, char text[SETTINGS_PATH_LENGTH], char 
     for (int number = 1; good && fgets(line, sizeof line, in) != NULL; number++) {
         char place[160];
         snprintf(place, sizeof place, "%.120s:%d", file, number);
-        good = strlen(line) < sizeof line - 1 ? take_line(&path, line, place, error)
-                                              : fail_with(error, "%s: line too long", place);
+        good = end_line(line, feof(in) != 0)
+                   ? take_line(&path, line, place, error)
+                   : fail_with(error, "%s: line too long, or no text that ends in \\n or \\r\\n", place);
     }
     const bool broken = ferror(in) != 0;
     fclose(in);

@@ -77,11 +77,9 @@ static lh_planner_config convert_planner(const settings *s) {
         .mechanics = s->planner.mechanics == SETTINGS_MECHANICS_QUASI_STATIC,
         .steering = (float)s->planner.steering,
         .unsafe = (float)s->planner.unsafe,
-        .curiosity = (float)s->planner.curiosity,
-        .curiosity_decay = (float)s->planner.curiosity_decay,
         .random_share = (float)s->planner.random_share,
         .candidates = (int32_t)s->planner.candidates,
-        .imagined = (int32_t)s->planner.imagined,
+        .sweeps = (int32_t)s->planner.sweeps,
         .backups = (int32_t)s->planner.backups,
     };
 }

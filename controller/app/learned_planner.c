@@ -84,7 +84,6 @@ static void fill_values(const lh_posture_values *values, limphome_planner_t *mes
     COPY(message->node_value, values->value, values->num_nodes);
     COPY(message->node_cost, values->cost, values->num_nodes);
     for (int32_t i = 0; i < values->num_nodes; i++) {
-        message->node_braced[i] = values->braced[i];
     }
 }
 
@@ -98,7 +97,6 @@ static void read_values(const limphome_planner_t *message, lh_posture_values *va
     COPY(values->value, message->node_value, values->num_nodes);
     COPY(values->cost, message->node_cost, values->num_nodes);
     for (int32_t i = 0; i < values->num_nodes; i++) {
-        values->braced[i] = message->node_braced[i] != 0;
     }
 }
 
@@ -112,7 +110,6 @@ void learned_save_planner(limphome_planner_t *message, const lh_controller *c) {
     message->ground[0] = learned.ground.x;
     message->ground[1] = learned.ground.y;
     message->ground[2] = learned.ground.z;
-    message->curiosity = learned.curiosity;
     message->turn = learned.turn;
     message->decisions = learned.decisions;
 }
@@ -125,7 +122,6 @@ bool learned_restore_planner(const limphome_planner_t *message, const lh_control
     read_values(message, &restored->values);
     memcpy(restored->random.s, message->random_state, sizeof restored->random.s);
     restored->ground = (lh_vec3){message->ground[0], message->ground[1], message->ground[2]};
-    restored->curiosity = message->curiosity;
     restored->turn = message->turn;
     restored->decisions = message->decisions;
     return true;

@@ -94,8 +94,7 @@ static message_verdict check_planner(const limphome_planner_t *planner) {
         finite_floats(planner->joint_high, planner->num_controlled) && finite_floats(&planner->decision_period, 1) &&
         finite_floats(planner->kernel_low, WIRE_JOINTS) && finite_floats(planner->kernel_width, WIRE_JOINTS) &&
         finite_floats(&planner->prior_weight, 1) && finite_floats(planner->node_low, WIRE_JOINTS) &&
-        finite_floats(planner->node_spacing, WIRE_JOINTS) && finite_floats(planner->ground, 3) &&
-        finite_floats(&planner->curiosity, 1);
+        finite_floats(planner->node_spacing, WIRE_JOINTS) && finite_floats(planner->ground, 3);
     return finite ? MESSAGE_GOOD : MESSAGE_NON_FINITE;
 }
 

@@ -91,7 +91,7 @@ Scene::Scene(const RobotModel &model, const settings &s, const Ground &ground, c
     dispatcher_.setNearCallback(look_near_ground);
     set_gravity({0, 0, -standard_gravity});
     for (const Failure &failure : failures) {
-        if (failure.time == 0) {
+        if (failure.from_the_start()) {
             fail(failure);
         }
     }

@@ -11,6 +11,18 @@
 
 namespace limphome {
 
+namespace {
+
+void change_ground(settings &configuration, int64_t episode) {
+    const auto &change = configuration.change;
+    if (change.at_episode > 0 && episode >= change.at_episode) {
+        configuration.simulator.friction_crawler *= change.friction;
+        configuration.simulator.friction_arm *= change.friction;
+    }
+}
+
+}  // namespace
+
 World::World(const RobotModel &model, const settings &configuration)
     : model_(model),
       settings_(configuration),
@@ -28,11 +40,13 @@ World::~World() = default;
 std::unique_ptr<Scene> World::make_scene(int64_t episode) const {
     RobotModel model = model_;
     settings configuration = settings_;
+    change_ground(configuration, episode);
     randomise(model, configuration, episode);
     return std::make_unique<Scene>(model, configuration, ground_, failures_);
 }
 
 void World::reset(int64_t episode) {
+    episode_ = episode;
     scene_ = make_scene(episode);
     earlier_steps_ += steps_;
     steps_ = 0;
@@ -76,7 +90,8 @@ void World::advance(double seconds) {
 // What fails from the start has failed when the scene was made.
 void World::fail_when_due() {
     for (const Failure &failure : failures_) {
-        if (failure.time > 0 && steps_ == std::max(1L, std::lround(failure.time / time_step()))) {
+        if (!failure.from_the_start() && episode_ >= failure.episode &&
+            steps_ == std::max(1L, std::lround(failure.time / time_step()))) {
             scene_->fail(failure);
         }
     }

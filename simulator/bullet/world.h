@@ -69,6 +69,7 @@ class World final : public Machine {
     std::vector<Failure> failures_;
     std::unique_ptr<Scene> scene_;
     SensorErrors sensor_errors_;
+    int64_t episode_ = 0;        // of the last reset
     int64_t steps_ = 0;          // since construction or reset
     int64_t earlier_steps_ = 0;  // in the sessions before
     double steps_due_ = 0;       // asked for and not done, -0.5 to 0.5

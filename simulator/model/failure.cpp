@@ -23,13 +23,13 @@ int actuator_index(const std::string &section, int64_t failed, const RobotModel 
 Failure planned(const settings_failure &f, int actuator) {
     switch (static_cast<settings_failure_mode>(f.mode)) {
         case SETTINGS_LOCKED:
-            return {actuator, DriveCondition::locked, 0, f.at_s};
+            return {actuator, DriveCondition::locked, 0, f.at_s, f.at_episode};
         case SETTINGS_FREE:
-            return {actuator, DriveCondition::free, 0, f.at_s};
+            return {actuator, DriveCondition::free, 0, f.at_s, f.at_episode};
         case SETTINGS_SLIPPING:
-            return {actuator, DriveCondition::slipping, f.slip_factor, f.at_s};
+            return {actuator, DriveCondition::slipping, f.slip_factor, f.at_s, f.at_episode};
         case SETTINGS_WEAK:
-            return {actuator, DriveCondition::weak, f.weak_factor, f.at_s};
+            return {actuator, DriveCondition::weak, f.weak_factor, f.at_s, f.at_episode};
     }
     throw std::logic_error("mode " + std::to_string(f.mode) + " of failure is not known");
 }

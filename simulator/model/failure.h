@@ -3,6 +3,7 @@
 
 #include <settings.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "model/drive.h"
@@ -13,8 +14,13 @@ namespace limphome {
 struct Failure {
     int actuator;
     DriveCondition condition;
-    double left;  // share of what it takes away: of a weak drive's torque limit, a slipping crawler's friction
-    double time;  // since the reset [s]
+    double left;      // share of what it takes away: of a weak drive's torque limit, a slipping crawler's friction
+    double time;      // since the reset [s]
+    int64_t episode;  // resets before this one leave it out
+
+    // Told with the first state; what fails later, be it in the first step, is an actuator that the controller counts
+    // on.
+    bool from_the_start() const { return time == 0 && episode == 0; }
 };
 
 // Throws std::runtime_error if the robot does not have that joint.

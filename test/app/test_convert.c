@@ -58,11 +58,9 @@ START_TEST(default_settings_are_the_librarys_defaults) {
     SAME(learner.planner.mechanics);
     SAME(learner.planner.steering);
     SAME(learner.planner.unsafe);
-    SAME(learner.planner.curiosity);
-    SAME(learner.planner.curiosity_decay);
     SAME(learner.planner.random_share);
     SAME(learner.planner.candidates);
-    SAME(learner.planner.imagined);
+    SAME(learner.planner.sweeps);
     SAME(learner.planner.backups);
 #undef SAME
     ck_assert_int_eq(lh_config_validate(&config), LH_OK);

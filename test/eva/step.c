@@ -12,6 +12,16 @@ static void restore(void) {
     lh_controller_restore(&controller, &learned, Frama_C_interval(INT32_MIN, INT32_MAX));
 }
 
+/* Any path that is valid: taken by the controller as it is, since a check of it would part the states needlessly. */
+static void choose_path(lh_path_config *path) {
+    path->kind = Frama_C_interval(LH_PATH_ROLLING, LH_PATH_WAYPOINTS);
+    path->num_waypoints = Frama_C_interval(1, LH_MAX_WAYPOINTS);
+    for (int i = 0; i < LH_MAX_WAYPOINTS; i++) {
+        path->waypoint[i].x = Frama_C_float_interval(-LH_WAYPOINT_MAX, LH_WAYPOINT_MAX);
+        path->waypoint[i].y = Frama_C_float_interval(-LH_WAYPOINT_MAX, LH_WAYPOINT_MAX);
+    }
+}
+
 static void step(void) {
     lh_state state;
     lh_decision decision;
@@ -27,17 +37,12 @@ int main(void) {
     config.learner.greedy = Frama_C_interval(0, 1);
     config.task.reward.heading_error = Frama_C_interval(0, 1);
     config.learner.q_learning.network.exact_gradient = Frama_C_interval(0, 1);
-    config.task.path.kind = Frama_C_interval(LH_PATH_ROLLING, LH_PATH_WAYPOINTS);
-    config.task.path.num_waypoints = Frama_C_interval(1, LH_MAX_WAYPOINTS);
-    for (int i = 0; i < LH_MAX_WAYPOINTS; i++) {
-        config.task.path.waypoint[i].x = Frama_C_float_interval(-LH_WAYPOINT_MAX, LH_WAYPOINT_MAX);
-        config.task.path.waypoint[i].y = Frama_C_float_interval(-LH_WAYPOINT_MAX, LH_WAYPOINT_MAX);
-    }
     const lh_robot robot = crawler_robot();
     const lh_controlled controlled = crawler_controlled();
     if (lh_controller_init(&controller, &config, &robot, &controlled) != LH_OK) {
         return 1;
     }
+    choose_path(&controller.task.config.path);
     /* not unrolled, as it has no end; a bound for EVA to try, below the limit of steps */
     //@ loop unroll 0; loop widen_hints controller.task.episode.steps, 199;
     while (Frama_C_interval(0, 1)) {

@@ -9,7 +9,20 @@ import pytest
 
 from limphome_lab.paths import ROOT
 
-SCRIPTS = ("bench", "evaluate", "launch", "plot", "results", "setup", "spy", "test", "train", "validate", "verify")
+SCRIPTS = (
+    "bench",
+    "evaluate",
+    "launch",
+    "plot",
+    "results",
+    "setup",
+    "spy",
+    "study",
+    "test",
+    "train",
+    "validate",
+    "verify",
+)
 TOOLS = ("bash", "dirname", "env", "readlink", "sed")  # all of a bare Debian that a help needs
 
 

@@ -10,6 +10,7 @@
 #define ITERATIONS 5
 #define SOFTNESS 2.0f    /* slip at which friction bends at first, in longest travels */
 #define HARDENING 0.4f   /* of that, from one iteration to the next */
+#define LEVEL 0.9995f    /* of the vertical along the ground's normal: a slope below 1.8 degrees is taken to be level */
 #define SMALL_TURN 0.02f /* of a joint, to see how far the tip goes [rad] */
 #define SMALL 1e-6f      /* keeps the equations solvable where all supports lie in a point or a line */
 
@@ -94,8 +95,9 @@ void lh_footing_find(const lh_robot *robot, const float *joint_angle, const lh_r
         }
         footing->travel = travel[k] > footing->travel ? travel[k] : footing->travel;
     }
-    footing->pull_x = -up.x / (up.z * friction);
-    footing->pull_y = -up.y / (up.z * friction);
+    footing->level = up.z > LEVEL;
+    footing->pull_x = footing->level ? 0.0f : -up.x / (up.z * friction);
+    footing->pull_y = footing->level ? 0.0f : -up.y / (up.z * friction);
 }
 
 /* One step of Newton's method towards the least sum of load * sqrt(|slip|^2 + softness^2). */
@@ -116,11 +118,11 @@ static void improve(const lh_footing *footing, const float *shift_x, const float
         float y = footing->y[i];
         float slip_x = twist->forward - twist->turn * y + shift_x[i];
         float slip_y = twist->sideways + twist->turn * x + shift_y[i];
-        float square = slip_x * slip_x + slip_y * slip_y + softness * softness;
-        float weight = footing->load[i] / lh_sqrt(square);
+        float inverse = 1.0f / lh_sqrt(slip_x * slip_x + slip_y * slip_y + softness * softness);
+        float weight = footing->load[i] * inverse;
         float force_x = weight * slip_x;
         float force_y = weight * slip_y;
-        float bend = weight / square;
+        float bend = weight * inverse * inverse;
         float xx = weight - bend * slip_x * slip_x;
         float xy = -bend * slip_x * slip_y;
         float yy = weight - bend * slip_y * slip_y;

@@ -5,6 +5,7 @@
 #ifndef LIMPHOME_QUASI_STATIC_H
 #define LIMPHOME_QUASI_STATIC_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "limphome/body/rest.h"
@@ -22,8 +23,9 @@ typedef struct lh_footing {
     float load[LH_MAX_SUPPORTS]; /* [count] share of the weight, sum 1 */
     float shift_x[LH_MAX_ACTUATORS][LH_MAX_SUPPORTS]; /* [num_actuators][count] by the actuator's whole travel [m] */
     float shift_y[LH_MAX_ACTUATORS][LH_MAX_SUPPORTS]; /* likewise [m] */
-    float pull_x, pull_y;                             /* gravity along the ground over friction times weight */
-    float travel;                                     /* the longest of any actuator [m or rad] */
+    bool level;           /* no gravity along the ground: the opposite of an action does the opposite */
+    float pull_x, pull_y; /* gravity along the ground over friction times weight */
+    float travel;         /* the longest of any actuator [m or rad] */
 } lh_footing;
 
 /* A planar motion of the body in its own frame at the start. */

@@ -36,6 +36,7 @@ void lh_planned_init(lh_planned *planned, const lh_task *task, float period) {
         planned->travel[k] = period * (is_joint ? task->config.joint_speed : task->config.crawler_speed);
     }
     planned->num_actions = lh_action_count(planned->count);
+    planned->num_crawler_actions = lh_action_count(planned->num_crawlers);
     for (int32_t a = 0; a < planned->num_actions; a++) {
         lh_action_levels(a, planned->count, planned->level[a]);
     }

@@ -14,16 +14,17 @@ extern "C" {
 #endif
 
 typedef struct lh_planned {
-    int32_t num_controlled;                           /* of the task */
-    int32_t count;                                    /* planned actuators: crawlers, then joints */
-    int32_t num_crawlers;                             /* of these */
-    int32_t num_joints;                               /* of these */
-    int32_t place[LH_MAX_PLANNED];                    /* [count] in the task's controlled actuators, ascending */
-    int32_t actuator[LH_MAX_PLANNED];                 /* [count] of the robot */
-    float low[LH_PLANNED_JOINTS];                     /* [num_joints] [rad] */
-    float high[LH_PLANNED_JOINTS];                    /* [num_joints] [rad] */
-    float travel[LH_MAX_ACTUATORS];                   /* [robot's actuators] of each in one decision [m or rad] */
-    int32_t num_actions;                              /* 3^count */
+    int32_t num_controlled;           /* of the task */
+    int32_t count;                    /* planned actuators: crawlers, then joints */
+    int32_t num_crawlers;             /* of these */
+    int32_t num_joints;               /* of these */
+    int32_t place[LH_MAX_PLANNED];    /* [count] in the task's controlled actuators, ascending */
+    int32_t actuator[LH_MAX_PLANNED]; /* [count] of the robot */
+    float low[LH_PLANNED_JOINTS];     /* [num_joints] [rad] */
+    float high[LH_PLANNED_JOINTS];    /* [num_joints] [rad] */
+    float travel[LH_MAX_ACTUATORS];   /* [robot's actuators] of each in one decision [m or rad] */
+    int32_t num_actions;              /* 3^count */
+    int32_t num_crawler_actions;      /* 3^num_crawlers: the lowest digits of an action are those of the crawlers */
     int8_t level[LH_PLANNED_ACTIONS][LH_MAX_PLANNED]; /* [num_actions][count] */
 } lh_planned;
 

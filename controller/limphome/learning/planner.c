@@ -26,12 +26,10 @@ lh_planner_config lh_planner_config_default(void) {
         .mechanics = true,
         .steering = 1.5f,
         .unsafe = 3.0f,
-        .curiosity = 0.3f,
-        .curiosity_decay = 0.97f,
         .random_share = 0.02f,
-        .candidates = 10,
-        .imagined = 20,
-        .backups = 18,
+        .candidates = 5,
+        .sweeps = 10,
+        .backups = 8,
     };
 }
 
@@ -43,13 +41,11 @@ lh_error lh_planner_config_validate(const lh_planner_config *config) {
     if (!lh_within(config->discount_rate, 0.0f, LH_DISCOUNT_RATE_MAX)) {
         return LH_ERROR_RATE;
     }
-    bool good =
-        lh_within(config->decision_period, LH_DECISION_PERIOD_MIN, LH_DECISION_PERIOD_MAX) &&
-        lh_within(config->steering, 0.0f, LH_PLANNER_WEIGHT_MAX) &&
-        lh_within(config->unsafe, 0.0f, LH_PLANNER_WEIGHT_MAX) &&
-        lh_within(config->curiosity, 0.0f, LH_PLANNER_WEIGHT_MAX) && lh_within(config->curiosity_decay, 0.0f, 1.0f) &&
-        lh_within(config->random_share, 0.0f, 1.0f) && is_count(config->candidates, 1, LH_CANDIDATES_MAX) &&
-        is_count(config->imagined, 0, LH_PLANNER_BACKUPS_MAX) && is_count(config->backups, 0, LH_PLANNER_BACKUPS_MAX);
+    bool good = lh_within(config->decision_period, LH_DECISION_PERIOD_MIN, LH_DECISION_PERIOD_MAX) &&
+                lh_within(config->steering, 0.0f, LH_PLANNER_WEIGHT_MAX) &&
+                lh_within(config->unsafe, 0.0f, LH_PLANNER_WEIGHT_MAX) && lh_within(config->random_share, 0.0f, 1.0f) &&
+                is_count(config->candidates, 1, LH_CANDIDATES_MAX) && is_count(config->sweeps, 0, LH_SWEEPS_MAX) &&
+                is_count(config->backups, 0, LH_BACKUPS_MAX);
     return good ? LH_OK : LH_ERROR_PLANNER;
 }
 
@@ -73,10 +69,12 @@ lh_error lh_planner_init(lh_planner *planner, const lh_planner_config *config, c
                            2.0f * task->config.joint_speed * config->decision_period);
     lh_random_init(&learned->random, seed);
     learned->ground = vertical;
-    learned->curiosity = config->curiosity;
     planner->up = vertical;
     planner->node = LH_NO_NODE;
     lh_planning_assess(planner);
+    for (int32_t i = 0; i < config->sweeps; i++) {
+        lh_planning_back_up_in_turn(planner, learned->values.num_nodes);
+    }
     return LH_OK;
 }
 
@@ -115,7 +113,7 @@ static void learn(lh_planner *planner, const lh_pose2 *now, const float *angle) 
         .forward = cosine * dx + sine * dy - planner->expected.forward,
         .sideways = cosine * dy - sine * dx - planner->expected.sideways,
         .turn = turn - planner->expected.turn,
-        .moved = share_moved(planner, angle) - planner->expected.moved,
+        .moved = share_moved(planner, angle) - 1.0f,
     };
     lh_motion_model_insert(&planner->learned.model, planner->action, planner->angle, &difference,
                            planner->learned.decisions);
@@ -165,16 +163,15 @@ static int32_t choose_at_random(lh_planner *planner, const float *angle) {
     return -1;
 }
 
-static int32_t choose(lh_planner *planner, const float *angle, lh_course course, bool greedy, lh_choice *choice) {
+static lh_option choose(lh_planner *planner, const float *angle, lh_course course, bool greedy) {
+    lh_planning_look(planner, angle);
     float random_share = planner->stalled == STALLED ? STALLED_SHARE : (greedy ? 0.0f : planner->config.random_share);
-    float curiosity = greedy ? 0.0f : planner->learned.curiosity;
-    int32_t action = lh_planning_choose(planner, angle, course, curiosity, &choice->q_max);
-    choice->q = choice->q_max;
-    choice->probability = 1.0f;
     if (random_share > 0.0f && lh_random_uniform(&planner->learned.random) < random_share) {
-        action = choose_at_random(planner, angle);
+        lh_option any;
+        lh_planning_consider(planner, angle, course, choose_at_random(planner, angle), &any);
+        return any;
     }
-    return action;
+    return lh_planning_choose(planner, angle, course);
 }
 
 void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool learns, bool greedy, lh_choice *choice) {
@@ -190,9 +187,6 @@ void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool lear
         choice->learned = true;
     }
     learned->decisions += learned->decisions < LH_LAST_DECISION;
-    if (learns && observed->outcome != LH_OUTCOME_NONE) {
-        learned->curiosity *= planner->config.curiosity_decay;
-    }
     watch_progress(planner, observed);
     if (observed->reset) {
         return;
@@ -203,12 +197,18 @@ void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool lear
     lh_cell cell;
     lh_posture_cell(&learned->values, angle, &cell);
     int32_t node = lh_posture_nearest(&cell);
-    lh_planning_improve(planner, planner->node, node, lh_course_steering(course));
+    if (planner->node != LH_NO_NODE) {
+        lh_planning_back_up(planner, planner->node); /* where something has just been measured */
+    }
+    lh_planning_back_up(planner, node);
+    lh_planning_back_up_in_turn(planner, planner->config.backups);
 
-    planner->action = choose(planner, angle, course, greedy, choice);
-    choice->action = lh_planned_joint_action(&planner->planned, planner->action);
-    lh_planning_look(planner, angle);
-    planner->expected = lh_planning_expect(planner, planner->action);
+    lh_option chosen = choose(planner, angle, course, greedy);
+    choice->action = lh_planned_joint_action(&planner->planned, chosen.action);
+    choice->q = choice->q_max = chosen.value;
+    choice->probability = 1.0f;
+    planner->action = chosen.action;
+    planner->expected = chosen.expected;
     planner->acting = true;
     planner->pose = observed->pose;
     memcpy(planner->angle, angle, sizeof angle);
@@ -225,8 +225,7 @@ lh_error lh_planner_restore(lh_planner *planner, const lh_planner_learned *saved
     bool good = lh_motion_model_fits(&saved->model, &learned->model) &&
                 lh_posture_values_fit(&saved->values, &learned->values) &&
                 is_count(saved->turn, 0, saved->values.num_nodes - 1) &&
-                is_count(saved->decisions, 0, LH_LAST_DECISION) &&
-                lh_within(saved->curiosity, 0.0f, LH_PLANNER_WEIGHT_MAX) && lh_within(ground.x, -1.0f, 1.0f) &&
+                is_count(saved->decisions, 0, LH_LAST_DECISION) && lh_within(ground.x, -1.0f, 1.0f) &&
                 lh_within(ground.y, -1.0f, 1.0f) && lh_within(ground.z, LH_LEAST_GROUND, 1.001f) &&
                 lh_within(lh_vec3_norm(ground), 0.999f, 1.001f);
     if (!good) {

@@ -32,7 +32,8 @@ extern "C" {
 /* Ranges of lh_planner_config. */
 #define LH_PLANNER_WEIGHT_MAX 100.0f /* of weights in the planning reward */
 #define LH_CANDIDATES_MAX 16
-#define LH_PLANNER_BACKUPS_MAX 1000
+#define LH_SWEEPS_MAX 100
+#define LH_BACKUPS_MAX 1000
 #define LH_DECISION_PERIOD_MIN 0.01f /* [s] */
 #define LH_DECISION_PERIOD_MAX 10.0f /* [s] */
 
@@ -43,12 +44,11 @@ typedef struct lh_planner_config {
                               arm. Default true */
     float steering;        /* weight of the steering error, 0 to LH_PLANNER_WEIGHT_MAX; default 1.5 */
     float unsafe;          /* weight of a margin below the safe one, 0 to LH_PLANNER_WEIGHT_MAX; default 3 */
-    float curiosity; /* reward for what was never tried here, in episode 1, 0 to LH_PLANNER_WEIGHT_MAX; default 0.3 */
-    float curiosity_decay; /* of that from one episode to the next, 0 to 1; default 0.97 */
     float random_share;    /* of actions taken at random while it learns, 0 to 1; default 0.02 */
-    int32_t candidates;    /* actions looked into by a second step, 1 (none) to LH_CANDIDATES_MAX; default 10 */
-    int32_t imagined; /* nodes backed up along the way imagined from here, 0 to LH_PLANNER_BACKUPS_MAX; default 20 */
-    int32_t backups;  /* nodes backed up in turn, 0 to LH_PLANNER_BACKUPS_MAX; default 18 */
+    int32_t candidates;    /* actions looked into by a second step, 1 (none) to LH_CANDIDATES_MAX; default 5 */
+    int32_t sweeps;  /* of value iteration over all postures before the first decision, 0 to LH_SWEEPS_MAX; default
+                        10 */
+    int32_t backups; /* nodes backed up in turn by each decision, 0 to LH_BACKUPS_MAX; default 8 */
 } lh_planner_config;
 
 /* All that a later run needs to go on as if unbroken from where a reset was asked for. */
@@ -57,7 +57,6 @@ typedef struct lh_planner_learned {
     lh_posture_values values;
     lh_random random;
     lh_vec3 ground;    /* its normal in the world frame, unit length, z above LH_LEAST_GROUND */
-    float curiosity;   /* that is left, 0 to LH_PLANNER_WEIGHT_MAX */
     int32_t turn;      /* node that is backed up next in turn */
     int32_t decisions; /* so far, 0 to LH_LAST_DECISION */
 } lh_planner_learned;
@@ -68,7 +67,7 @@ typedef struct lh_planner_learned {
 /* What the robot would do at a posture. */
 typedef struct lh_outlook {
     lh_rest rest;
-    lh_footing footing;
+    lh_twist expected[LH_PLANNED_ACTIONS]; /* by mechanics alone */
     lh_motion_sums sums[LH_PLANNED_ACTIONS];
 } lh_outlook;
 
@@ -81,7 +80,7 @@ typedef struct lh_planner {
     /* the step under way */
     bool acting;                    /* an action was chosen and its result is awaited */
     int32_t action;                 /* of `planned` */
-    lh_motion expected;             /* what mechanics says it will do */
+    lh_twist expected;              /* what mechanics says it will do */
     lh_pose2 pose;                  /* where it began */
     float angle[LH_PLANNED_JOINTS]; /* [planned.num_joints] there [rad] */
     int32_t node;                   /* nearest to these */
@@ -106,8 +105,8 @@ lh_error lh_planner_init(lh_planner *planner, const lh_planner_config *config, c
 void lh_planner_begin(lh_planner *planner);
 
 /* One decision: takes in what the step that led here did, if `learn`, plans, and then chooses; if `greedy`, without
- * curiosity and chance. Planning goes on without `learn`, on what was measured before. Where the robot has made no
- * progress for long, chance decides some of the actions in any case. */
+ * chance. Planning goes on without `learn`, on what was measured before. Where the robot has made no progress for long,
+ * chance decides some of the actions in any case. */
 void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool learn, bool greedy, lh_choice *choice);
 
 void lh_planner_save(const lh_planner *planner, lh_planner_learned *learned);

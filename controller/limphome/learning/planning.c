@@ -10,9 +10,7 @@
 #define SAFE_MARGIN 0.02f  /* S_safe [m] */
 #define LACKING_MAX 3.0f   /* of 1 - S / S_safe */
 #define STEERING_BEND 0.1f /* the penalty is quadratic up to here, linear beyond [rad] */
-#define STEERING_MAX 1.0f  /* of an imagined way [rad] */
 #define JAMMED 0.6f        /* an arm that moves less than this share is taken not to get anywhere */
-#define KNOWN 0.1f         /* so much weight of samples halves curiosity */
 
 static float magnitude(float x) {
     return x < 0.0f ? -x : x;
@@ -58,33 +56,46 @@ void lh_planning_assess(lh_planner *planner) {
     }
 }
 
+/* What mechanics says each action does. Where the arm does not carry, its joints do not matter, and the crawlers'
+ * digits, which are the lowest of an action's number, decide alone. On level ground the opposite of an action, its
+ * number counted from the end, does the opposite. */
+static void expect(const lh_planner *planner, const lh_footing *footing, bool braced, lh_twist *expected) {
+    const lh_planned *planned = &planner->planned;
+    int32_t different = braced ? planned->num_actions : planned->num_crawler_actions;
+    for (int32_t a = 0; a < planned->num_actions; a++) {
+        int32_t opposite = planned->num_actions - 1 - a;
+        if (a >= different) {
+            expected[a] = expected[a - different];
+        } else if (footing->level && opposite < a) {
+            const lh_twist *other = &expected[opposite];
+            expected[a] = (lh_twist){-other->forward, -other->sideways, -other->turn};
+        } else {
+            float share[LH_MAX_ACTUATORS] = {0.0f};
+            for (int32_t k = 0; k < planned->count; k++) {
+                share[planned->actuator[k]] = (float)(planned->level[a][k] - 1);
+            }
+            expected[a] = lh_quasi_static_motion(footing, planner->robot.num_actuators, share);
+        }
+    }
+}
+
 void lh_planning_look(lh_planner *planner, const float *angle) {
     lh_outlook *outlook = &planner->outlook;
     float joint_angle[LH_MAX_ACTUATORS];
     find_rest(planner, angle, joint_angle, &outlook->rest);
-    lh_footing_find(&planner->robot, joint_angle, &outlook->rest, planner->up, planner->planned.travel, FRICTION,
-                    &outlook->footing);
-    lh_motion_model_gather(&planner->learned.model, angle, outlook->sums);
-}
-
-lh_motion lh_planning_expect(const lh_planner *planner, int32_t action) {
-    lh_motion motion = {.moved = 1.0f};
     if (planner->config.mechanics) {
-        float share[LH_MAX_ACTUATORS] = {0.0f};
-        for (int32_t k = 0; k < planner->planned.count; k++) {
-            share[planner->planned.actuator[k]] = (float)(planner->planned.level[action][k] - 1);
-        }
-        lh_twist twist = lh_quasi_static_motion(&planner->outlook.footing, planner->robot.num_actuators, share);
-        motion.forward = twist.forward;
-        motion.sideways = twist.sideways;
-        motion.turn = twist.turn;
+        lh_footing footing;
+        lh_footing_find(&planner->robot, joint_angle, &outlook->rest, planner->up, planner->planned.travel, FRICTION,
+                        &footing);
+        expect(planner, &footing, outlook->rest.braced, outlook->expected);
     }
-    return motion;
+    lh_motion_model_gather(&planner->learned.model, angle, outlook->sums);
 }
 
 /* By mechanics and measurements. */
 static lh_motion predict(const lh_planner *planner, int32_t action) {
-    lh_motion motion = lh_planning_expect(planner, action);
+    const lh_twist *expected = &planner->outlook.expected[action];
+    lh_motion motion = {expected->forward, expected->sideways, expected->turn, 1.0f};
     lh_motion_model_correct(&planner->learned.model, &planner->outlook.sums[action], &motion);
     return motion;
 }
@@ -102,17 +113,9 @@ static float advance(const lh_planner *planner, const lh_motion *motion, float s
            steering_cost(planner, lh_course_steering(*course));
 }
 
-/* What is best at a node for each steering error. */
-typedef struct node_choice {
-    float value[LH_STEERINGS];
-    int32_t action[LH_STEERINGS]; /* -1: none is allowed */
-    lh_motion motion[LH_STEERINGS];
-} node_choice;
-
-/* Values of `motion` into `next`: the same twice, as nodes are two decisions apart. The steering error is taken to be
- * one of heading. */
-static void compare(const lh_planner *planner, int32_t action, const lh_motion *motion, int32_t next,
-                    node_choice *best) {
+/* Raises best[LH_STEERINGS] to what `motion` is worth: it happens twice, as nodes are two decisions apart, and leads to
+ * `next`. The steering error is taken to be one of heading. */
+static void compare(const lh_planner *planner, const lh_motion *motion, int32_t next, float *best) {
     const lh_posture_values *values = &planner->learned.values;
     const float discount = planner->config.discount_rate;
     const float cost = lh_posture_node_cost(values, next) * (1.0f + discount);
@@ -124,109 +127,68 @@ static void compare(const lh_planner *planner, int32_t action, const lh_motion *
         float later = after + after - before;
         float again = reward + steering_cost(planner, after) - steering_cost(planner, later);
         float value =
-            reward + discount * again - cost + discount * discount * lh_posture_node_value(values, next, later);
-        if (value > best->value[k]) {
-            best->value[k] = value;
-            best->action[k] = action;
-            best->motion[k] = *motion;
-        }
+            reward + discount * again - cost + discount * discount * lh_posture_node_value(values, next, k, later);
+        best[k] = value > best[k] ? value : best[k];
     }
 }
 
-/* One step of value iteration at `node`. */
-static void back_up(lh_planner *planner, int32_t node, node_choice *best) {
+void lh_planning_back_up(lh_planner *planner, int32_t node) {
     lh_posture_values *values = &planner->learned.values;
     float angle[LH_PLANNED_JOINTS];
     lh_posture_angles(values, node, angle);
     lh_planning_look(planner, angle);
     lh_posture_set_cost(values, node, standing_cost(planner, planner->outlook.rest.margin));
+    float best[LH_STEERINGS];
     for (int32_t k = 0; k < LH_STEERINGS; k++) {
-        best->value[k] = -FLT_MAX;
-        best->action[k] = -1;
+        best[k] = -FLT_MAX;
     }
     for (int32_t a = 0; a < planner->planned.num_actions; a++) {
         int32_t next = lh_posture_neighbour(values, node, lh_planned_joint_levels(&planner->planned, a));
-        if (next == LH_NO_NODE || lh_planned_is_still(&planner->planned, a)) {
-            continue;
+        if (next != LH_NO_NODE && !lh_planned_is_still(&planner->planned, a)) {
+            lh_motion motion = predict(planner, a);
+            compare(planner, &motion, motion.moved < JAMMED ? node : next, best);
         }
-        lh_motion motion = predict(planner, a);
-        compare(planner, a, &motion, motion.moved < JAMMED ? node : next, best);
     }
     for (int32_t k = 0; k < LH_STEERINGS; k++) {
-        if (best->action[k] >= 0) {
-            lh_posture_set_value(values, node, k, best->value[k]);
-        }
+        lh_posture_set_value(values, node, k, best[k]);
     }
 }
 
-/* Backs up the nodes along the way that seems best from one that has just been backed up. */
-static void imagine(lh_planner *planner, int32_t node, float steering, node_choice *best) {
-    for (int32_t i = 0; i < planner->config.imagined; i++) {
-        int32_t k = lh_posture_column(steering);
-        if (best->action[k] < 0) {
-            return;
-        }
-        const lh_motion *motion = &best->motion[k];
-        lh_course course = {steering, 0.0f};
-        advance(planner, motion, lh_sin(steering), lh_cos(steering), &course);
-        steering = clip(2.0f * lh_course_steering(course) - steering, -STEERING_MAX, STEERING_MAX);
-        if (motion->moved >= JAMMED) {
-            node = lh_posture_neighbour(&planner->learned.values, node,
-                                        lh_planned_joint_levels(&planner->planned, best->action[k]));
-        }
-        back_up(planner, node, best);
-    }
-}
-
-void lh_planning_improve(lh_planner *planner, int32_t previous, int32_t node, float steering) {
-    node_choice best;
-    if (previous != LH_NO_NODE) {
-        back_up(planner, previous, &best);
-    }
-    back_up(planner, node, &best);
-    imagine(planner, node, steering, &best);
+void lh_planning_back_up_in_turn(lh_planner *planner, int32_t count) {
     int32_t *turn = &planner->learned.turn;
-    for (int32_t i = 0; i < planner->config.backups; i++) {
-        back_up(planner, *turn, &best);
-        *turn = (*turn + 1) % planner->learned.values.num_nodes;
+    for (int32_t i = 0; i < count; i++) {
+        lh_planning_back_up(planner, *turn);
+        *turn = *turn + 1 < planner->learned.values.num_nodes ? *turn + 1 : 0;
     }
 }
 
-/* An action, and where it leads. */
-typedef struct option {
-    int32_t action;
-    float reward; /* for the step itself */
-    float value;  /* with all that follows */
-    lh_course course;
-    float angle[LH_PLANNED_JOINTS];
-} option;
-
-/* The posture looked at is `angle`. False if the action is not allowed there. */
-static bool consider(const lh_planner *planner, const float *angle, lh_course course, int32_t action, option *found) {
+bool lh_planning_consider(const lh_planner *planner, const float *angle, lh_course course, int32_t action,
+                          lh_option *option) {
     if (!lh_planned_allows(&planner->planned, angle, action)) {
         return false;
     }
     const lh_posture_values *values = &planner->learned.values;
     lh_motion motion = predict(planner, action);
-    found->action = action;
-    found->course = course;
-    found->reward = advance(planner, &motion, lh_sin(course.heading), lh_cos(course.heading), &found->course);
-    lh_planned_move(&planner->planned, angle, action, motion.moved, found->angle);
+    option->action = action;
+    option->expected = planner->outlook.expected[action];
+    option->course = course;
+    option->reward = advance(planner, &motion, lh_sin(course.heading), lh_cos(course.heading), &option->course);
+    lh_planned_move(&planner->planned, angle, action, motion.moved, option->angle);
     lh_cell cell;
-    lh_posture_cell(values, found->angle, &cell);
-    found->reward -= lh_posture_cost(values, &cell);
-    found->value = found->reward +
-                   planner->config.discount_rate * lh_posture_value(values, &cell, lh_course_steering(found->course));
+    lh_posture_cell(values, option->angle, &cell);
+    option->reward -= lh_posture_cost(values, &cell);
+    option->value = option->reward +
+                    planner->config.discount_rate * lh_posture_value(values, &cell, lh_course_steering(option->course));
     return true;
 }
 
-/* Value of the best action that follows `option`. */
-static float look_further(lh_planner *planner, const option *from) {
+/* Value of the best action that follows. */
+static float look_further(lh_planner *planner, const lh_option *from) {
     lh_planning_look(planner, from->angle);
     float best = -FLT_MAX;
     for (int32_t a = 0; a < planner->planned.num_actions; a++) {
-        option next;
-        if (consider(planner, from->angle, from->course, a, &next) && next.value > best) {
+        lh_option next;
+        if (lh_planning_consider(planner, from->angle, from->course, a, &next) && next.value > best) {
             best = next.value;
         }
     }
@@ -234,7 +196,7 @@ static float look_further(lh_planner *planner, const option *from) {
 }
 
 /* Inserts an option into the best ones, which are in falling order, if it is one of them; their new number. */
-static int32_t rank(option *best, int32_t count, int32_t most, const option *candidate) {
+static int32_t rank(lh_option *best, int32_t count, int32_t most, const lh_option *candidate) {
     if (count == most && candidate->value <= best[count - 1].value) {
         return count;
     }
@@ -246,16 +208,12 @@ static int32_t rank(option *best, int32_t count, int32_t most, const option *can
     return count < most ? count + 1 : most;
 }
 
-int32_t lh_planning_choose(lh_planner *planner, const float *angle, lh_course course, float curiosity, float *value) {
-    lh_planning_look(planner, angle);
-    option best[LH_CANDIDATES_MAX];
+lh_option lh_planning_choose(lh_planner *planner, const float *angle, lh_course course) {
+    lh_option best[LH_CANDIDATES_MAX];
     int32_t count = 0;
     for (int32_t a = 0; a < planner->planned.num_actions; a++) {
-        option candidate;
-        if (consider(planner, angle, course, a, &candidate)) {
-            float bonus = curiosity * KNOWN / (KNOWN + planner->outlook.sums[a].narrow_weight);
-            candidate.reward += bonus;
-            candidate.value += bonus;
+        lh_option candidate;
+        if (lh_planning_consider(planner, angle, course, a, &candidate)) {
             count = rank(best, count, planner->config.candidates, &candidate);
         }
     }
@@ -264,6 +222,5 @@ int32_t lh_planning_choose(lh_planner *planner, const float *angle, lh_course co
         best[i].value = best[i].reward + planner->config.discount_rate * look_further(planner, &best[i]);
         chosen = best[i].value > best[chosen].value ? i : chosen;
     }
-    *value = best[chosen].value;
-    return best[chosen].action;
+    return best[chosen];
 }

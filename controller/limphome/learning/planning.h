@@ -2,6 +2,7 @@
 #ifndef LIMPHOME_PLANNING_H
 #define LIMPHOME_PLANNING_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "limphome/learning/planner.h"
@@ -12,7 +13,7 @@ typedef struct lh_course {
     float lateral; /* error [m] */
 } lh_course;
 
-/* Heading error + LH_STEERING_GAIN times lateral error. */
+/* Steering error: planner.h [rad]. */
 float lh_course_steering(lh_course course);
 
 /* Costs of all nodes, on ground with the vertical planner->up, other joints as in planner->joint_angle. */
@@ -21,15 +22,28 @@ void lh_planning_assess(lh_planner *planner);
 /* What planner->outlook is to tell: the posture angle[planned.num_joints]. */
 void lh_planning_look(lh_planner *planner, const float *angle);
 
-/* By mechanics alone, what `action` does in the posture looked at. */
-lh_motion lh_planning_expect(const lh_planner *planner, int32_t action);
+/* One step of value iteration at `node`: its values become the best that an action promises there. */
+void lh_planning_back_up(lh_planner *planner, int32_t node);
 
-/* Backs up `previous`, unless LH_NO_NODE, `node`, config.imagined nodes along the way that seems best from there with
- * steering error `steering`, and config.backups nodes in turn. */
-void lh_planning_improve(lh_planner *planner, int32_t previous, int32_t node, float steering);
+/* The same at `count` nodes, one after the other from where it was left the last time. */
+void lh_planning_back_up_in_turn(lh_planner *planner, int32_t count);
 
-/* The action that promises most at angle[planned.num_joints] and `course`, and its value. `curiosity` is the reward for
- * one that was never tried there. */
-int32_t lh_planning_choose(lh_planner *planner, const float *angle, lh_course course, float curiosity, float *value);
+/* An action taken where the arm is, and where it leads. */
+typedef struct lh_option {
+    int32_t action;                 /* of planner->planned */
+    float reward;                   /* for the step itself */
+    float value;                    /* with all that follows */
+    lh_twist expected;              /* by mechanics alone */
+    lh_course course;               /* then */
+    float angle[LH_PLANNED_JOINTS]; /* then [rad] */
+} lh_option;
+
+/* The posture looked at is angle[planned.num_joints]. False if the action is not allowed there. */
+bool lh_planning_consider(const lh_planner *planner, const float *angle, lh_course course, int32_t action,
+                          lh_option *option);
+
+/* The one that promises most, by a search of two steps. The posture looked at is angle[planned.num_joints], and after
+ * the call another. */
+lh_option lh_planning_choose(lh_planner *planner, const float *angle, lh_course course);
 
 #endif

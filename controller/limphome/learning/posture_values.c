@@ -28,14 +28,6 @@ float lh_posture_cosine(int32_t k) {
     return cosines[k];
 }
 
-int32_t lh_posture_column(float steering) {
-    int32_t k = 0;
-    for (int32_t i = 1; i < LH_STEERINGS; i++) {
-        k += steering > 0.5f * (steerings[i - 1] + steerings[i]);
-    }
-    return k;
-}
-
 static int32_t nodes_along(float low, float high, float spacing) {
     return (int32_t)((high - low) / spacing + 0.5f) + 1;
 }
@@ -134,14 +126,19 @@ float lh_posture_cost(const lh_posture_values *values, const lh_cell *cell) {
     return sum * (1.0f / COST_UNITS);
 }
 
+/* Where `steering` lies between column k and the next, 0 to 1. */
+static float share_of_next(int32_t k, float steering) {
+    float x = (steering - steerings[k]) * reciprocals[k];
+    return x < 0.0f ? 0.0f : (x > 1.0f ? 1.0f : x);
+}
+
 /* Columns round `steering`: the first of the two and the share of the second. */
 static int32_t column(float steering, float *share) {
     int32_t k = 0;
     for (int32_t i = 1; i < LH_STEERINGS - 1; i++) {
         k += steering >= steerings[i];
     }
-    float x = (steering - steerings[k]) * reciprocals[k];
-    *share = x < 0.0f ? 0.0f : (x > 1.0f ? 1.0f : x);
+    *share = share_of_next(k, steering);
     return k;
 }
 
@@ -162,9 +159,15 @@ float lh_posture_node_cost(const lh_posture_values *values, int32_t node) {
     return (float)values->cost[node] * (1.0f / COST_UNITS);
 }
 
-float lh_posture_node_value(const lh_posture_values *values, int32_t node, float steering) {
-    float share;
-    int32_t k = column(steering, &share);
+float lh_posture_node_value(const lh_posture_values *values, int32_t node, int32_t near, float steering) {
+    int32_t k = near < LH_STEERINGS - 1 ? near : LH_STEERINGS - 2;
+    while (k > 0 && steering < steerings[k]) {
+        k--;
+    }
+    while (k < LH_STEERINGS - 2 && steering >= steerings[k + 1]) {
+        k++;
+    }
+    float share = share_of_next(k, steering);
     const int16_t *value = values->value[node];
     float low = (float)value[k];
     return (low + share * ((float)value[k + 1] - low)) * (1.0f / VALUE_UNITS);

@@ -38,9 +38,6 @@ float lh_posture_steering(int32_t k);
 float lh_posture_sine(int32_t k);
 float lh_posture_cosine(int32_t k);
 
-/* The column nearest to a steering error. */
-int32_t lh_posture_column(float steering);
-
 /* A lattice over [low, high] of each joint, about `spacing` apart, or wider where the nodes would be more than
  * LH_MAX_POSTURES; all values and costs 0. */
 void lh_posture_values_init(lh_posture_values *values, int32_t num_joints, const float *low, const float *high,
@@ -64,9 +61,9 @@ float lh_posture_cost(const lh_posture_values *values, const lh_cell *cell);
 /* Interpolated between corners and steering errors; beyond the outermost, that of the outermost. */
 float lh_posture_value(const lh_posture_values *values, const lh_cell *cell, float steering);
 
-/* Both at one node. */
+/* Both at one node; `near` is a column not far from `steering`, where the search begins. */
 float lh_posture_node_cost(const lh_posture_values *values, int32_t node);
-float lh_posture_node_value(const lh_posture_values *values, int32_t node, float steering);
+float lh_posture_node_value(const lh_posture_values *values, int32_t node, int32_t near, float steering);
 
 void lh_posture_set_value(lh_posture_values *values, int32_t node, int32_t k, float value);
 void lh_posture_set_cost(lh_posture_values *values, int32_t node, float cost);

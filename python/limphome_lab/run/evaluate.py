@@ -7,6 +7,7 @@ import sys
 from limphome_lab import command, network, runfolder
 from limphome_lab.ending import with_exit_code
 from limphome_lab.run.average import average_policy
+from limphome_lab.run.manifest import Part, begin_manifest, write_manifest
 from limphome_lab.run.pair import Pair
 from limphome_lab.run.processes import raise_on_signals
 from limphome_lab.show.progress import Progress
@@ -18,7 +19,7 @@ EPISODES = 50
 def parse_arguments():
     parser = command.parser(
         "evaluate",
-        "Drives with the policy of a run, without learning; leaves RUN/evaluation/.",
+        "Drives with the policy of a run, without learning; leaves a run folder.",
         "runs/default-seed1-20250131-120000 --set episode.goal_distance_m=10",
     )
     parser.add_argument("run", metavar="RUN", help="run folder")
@@ -42,24 +43,30 @@ def parse_arguments():
         metavar="SECTION.KEY=VALUE",
         help="one setting other than in training, such as another failure; repeatable",
     )
+    parser.add_argument("--out", metavar="DIR", help="run folder to make; default RUN/evaluation/, made anew")
     parser.add_argument("--json", action="store_true", help="print JSON instead of a table")
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
     return parser.parse_args()
 
 
-def evaluation_folder(trained, assignments):
-    """RUN/evaluation/, made anew: it holds nothing but what an earlier evaluation left."""
-    runfolder.resolve_settings(trained.config, assignments)  # refused before the earlier evaluation is removed
-    out = trained.path / "evaluation"
-    shutil.rmtree(out, ignore_errors=True)
+def evaluation_folder(trained, assignments, out=None):
+    """`out`, or RUN/evaluation/, which holds nothing but what an earlier evaluation left and is made anew."""
+    if out is None:
+        runfolder.resolve_settings(trained.config, assignments)  # refused before the earlier evaluation is removed
+        out = trained.path / "evaluation"
+        shutil.rmtree(out, ignore_errors=True)
     return runfolder.create(out, trained.config, trained.robot, assignments)
 
 
 def evaluate(folder, policy, url):
     episodes = int(folder.settings()["learning"]["episodes"])
     tail = runfolder.EpisodeTail(folder.episodes)
+    progress = Progress(episodes, quiet=not sys.stderr.isatty())
+    begin_manifest(folder, "evaluation")
+    part = Part(folder)
     with Pair(folder, url, ["--evaluate", policy]) as pair:
-        pair.run(tail, Progress(episodes, quiet=not sys.stderr.isatty()))
+        pair.run(tail, progress)
+    write_manifest(folder, part.measure("finished", progress.simulated_s))
     summary = summarise(folder.read_episodes())
     if folder.settings()["task"]["path"].startswith("to "):
         from limphome_lab.show import missions  # needs the message types, which --help does without
@@ -76,7 +83,7 @@ def main():
     trained = runfolder.existing(args.run, "policy")
     average = None if args.average is None else average_policy(trained, args.average).encode()
     settings = [f"learning.episodes={args.episodes}", f"evaluation.selection={args.selection}"]
-    folder = evaluation_folder(trained, [*settings, "simulator.pace=lockstep", *args.set])
+    folder = evaluation_folder(trained, [*settings, "simulator.pace=lockstep", *args.set], args.out)
     if average is not None:
         folder.policy.write_bytes(average)
     summary = evaluate(folder, trained.policy if average is None else folder.policy, url)

@@ -1,8 +1,9 @@
-"""manifest.json: where a run came from, and what it took.
+"""manifest.json: what a run followed from, where it came from, and what it took.
 
 A run that was interrupted and resumed has several parts; each is measured by itself, and the totals are their sums.
 """
 
+import hashlib
 import json
 import os
 import platform
@@ -118,9 +119,9 @@ COUNTERS = (
 )
 
 
-def begin_manifest(folder, config):
+def begin_manifest(folder, config, programs=PROCESSES):
     """Notes the name of the experiment, before anything has run."""
-    folder.manifest.write_text(json.dumps({"config": config, "parts": []}) + "\n")
+    folder.manifest.write_text(json.dumps({"config": config, "programs": programs, "parts": []}) + "\n")
 
 
 def write_manifest(folder, part):
@@ -130,7 +131,10 @@ def write_manifest(folder, part):
     episodes = folder.read_episodes()
     manifest = {
         "config": begun["config"],
+        "programs": begun["programs"],
         "seed": int(folder.settings()["learning"]["seed"]),
+        "settings": as_dict(folder.settings()),
+        "digests": {"robot": digest(folder.robot), **program_digests(begun["programs"])},
         "result": part["result"],
         "episodes": len(episodes),
         "outcomes": dict(Counter(episode.outcome for episode in episodes)),
@@ -142,6 +146,19 @@ def write_manifest(folder, part):
         "parts": parts,
     }
     folder.manifest.write_text(json.dumps(manifest, indent=2) + "\n")
+
+
+def as_dict(settings):
+    """{section: {key: value}} of a configparser."""
+    return {section: dict(settings[section]) for section in settings.sections()}
+
+
+def digest(file):
+    return hashlib.sha256(Path(file).read_bytes()).hexdigest()
+
+
+def program_digests(programs):
+    return {name: digest(paths.program(name)) for name in programs}
 
 
 def output(*command):

@@ -28,6 +28,7 @@ def parse_arguments():
         default="private",
         help="a network namespace of its own (default), or a port of its own on the host's network",
     )
+    parser.add_argument("--no-figures", dest="figures", action="store_false", help="draw none; plot does it later")
     parser.add_argument("--quiet", action="store_true", help="no progress")
     args = parser.parse_args()
     if args.resume and (args.config or args.robot or args.out or args.set or args.seed is not None):
@@ -88,7 +89,8 @@ def main():
         result, code = "failed", failure.exit_code
         print(failure, file=sys.stderr)
     write_manifest(folder, part.measure(result, progress.simulated_s))
-    draw(folder)
+    if args.figures:
+        draw(folder)
     if code == 0:
         print(f"done in {clock(part.wall_time_s)}: {paths.shown(folder.path)}", file=sys.stderr)
     return code

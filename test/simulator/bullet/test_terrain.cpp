@@ -38,6 +38,21 @@ double drift(const settings &s, double seconds) {
     return (position(world) - start).norm();
 }
 
+TEST(Terrain, ChangesWithItsEpisode) {
+    settings s = sound();
+    s.change.at_episode = 60;
+    s.change.friction = 0.5;
+    World world(paper_robot(), s);
+    const auto friction = [&world](int64_t episode) {
+        world.reset(episode);
+        run(world, {}, 0.1);
+        return world.contacts().at(0).friction;
+    };
+    EXPECT_DOUBLE_EQ(friction(59), s.simulator.friction_crawler);
+    EXPECT_DOUBLE_EQ(friction(60), 0.5 * s.simulator.friction_crawler);
+    EXPECT_DOUBLE_EQ(friction(61), 0.5 * s.simulator.friction_crawler);
+}
+
 // Contacts on an incline that is hardly one against those that Bullet finds on the plane.
 TEST(Terrain, ContactsAreThoseOfThePlane) {
     World plane(paper_robot(), left_locked());

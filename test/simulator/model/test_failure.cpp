@@ -88,6 +88,22 @@ TEST(Failure, ComesAtItsTime) {
     EXPECT_EQ(world.health(left), Health::obeys);
 }
 
+TEST(Failure, ComesWithItsEpisode) {
+    settings s = left_locked();
+    s.failure.at_episode = 60;
+    World world(paper_robot(), s);
+    world.reset(59);
+    run(world, {0.3, 0.3}, 1);
+    EXPECT_EQ(world.health(left), Health::obeys);
+    world.reset(60);
+    EXPECT_EQ(world.health(left), Health::obeys);  // so the controller, begun here, counts on it as it did before
+    run(world, {}, 0.01);
+    EXPECT_EQ(world.health(left), Health::failed);
+    world.reset(61);
+    run(world, {}, 0.01);
+    EXPECT_EQ(world.health(left), Health::failed);
+}
+
 TEST(Failure, OfAJointThatTheRobotLacksIsRefused) {
     EXPECT_NO_THROW(World(paper_robot(), with_failure(joint(3), SETTINGS_LOCKED)));
     EXPECT_THROW(World(paper_robot(), with_failure(joint(4), SETTINGS_LOCKED)), std::runtime_error);

@@ -10,7 +10,9 @@ def draw(episodes):
     figure, (duration, lateral, goals) = plt.subplots(3, 1, figsize=(7.2, 7.0), sharex=True, layout="constrained")
     number = np.array([episode.episode for episode in episodes])
     _panel(duration, number, [episode.duration_s for episode in episodes], "duration [s]")
+    duration.set_yscale("log")  # the first take a hundred times as long as the last
     _panel(lateral, number, [abs(episode.lateral_error_m) for episode in episodes], "|lateral error| [m]")
+    lateral.set_ylim(bottom=0)
     reached = [100.0 * (episode.outcome == "goal") for episode in episodes]
     goals.plot(number, style.running(reached, np.mean), color=style.GREEN, linewidth=2)
     goals.set(ylabel="reached the goal [%]", xlabel="episode", ylim=(-3, 103), xlim=(0, number[-1] + 1))
@@ -26,4 +28,3 @@ def _panel(axes, number, values, label):
     axes.scatter(number, values, s=size, color=style.FAINT, linewidths=0)
     axes.plot(number, style.running(values), color=style.BLUE, linewidth=2)
     axes.set_ylabel(label)
-    axes.set_ylim(bottom=0)

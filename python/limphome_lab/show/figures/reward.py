@@ -26,7 +26,12 @@ def draw(episodes):
     axes.plot(
         number, style.running(reward), color=style.BLUE, linewidth=2, label=f"running median of {style.MEDIAN_WINDOW}"
     )
-    axes.set(xlabel="episode", ylabel="total reward", title="Total reward of each episode")
+    axes.set(
+        xlabel="episode",
+        ylabel="total reward (linear within 10, then logarithmic)",
+        title="Total reward of each episode",
+    )
     axes.set_xlim(0, number[-1] + 1)
+    axes.set_yscale("symlog", linthresh=10)  # the first are hundreds of times as large as the last
     axes.legend(loc="lower right", framealpha=0.9, frameon=True, edgecolor="none")
     return figure
