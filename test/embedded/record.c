@@ -1,5 +1,5 @@
-/* record RUN: makes recording.bin of the first decisions of a run folder, and published.bin of what the controller's
- * process said of each of them, as replay.c writes it. Both in the working directory. */
+/* record RUN DECISIONS: makes recording.bin of the first decisions of a run folder, and published.bin of what the
+ * controller's process said of each of them, as replay.c writes it. Both in the working directory. */
 #include <lcm/lcm.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ static void put(FILE *file, const void *data, size_t size) {
     }
 }
 
-static recording_header make_header(const char *run) {
+static recording_header make_header(const char *run, int32_t decisions) {
     char path[4096];
     char error[ERROR_LENGTH] = "";
     settings s = settings_default();
@@ -46,6 +46,7 @@ static recording_header make_header(const char *run) {
     memset(&header, 0, sizeof header);
     header.header_size = sizeof header;
     header.state_size = sizeof(lh_state);
+    header.decisions = decisions;
     header.config = convert_config(&s);
     header.config.learner.learn = true;
     header.robot = robot.robot;
@@ -101,11 +102,12 @@ static bool next(lcm_eventlog_t *log, const char *channel, decoder *decode, void
 }
 
 int main(int argc, char **argv) {
-    if (argc != 2) {
-        fprintf(stderr, "usage: record RUN\n");
+    const int decisions = argc == 3 ? atoi(argv[2]) : 0;
+    if (decisions < 1) {
+        fprintf(stderr, "usage: record RUN DECISIONS\n");
         return 2;
     }
-    recording_header header = make_header(argv[1]);
+    recording_header header = make_header(argv[1], decisions);
     char path[4096];
     snprintf(path, sizeof path, "%s/messages.lcmlog", argv[1]);
     lcm_eventlog_t *log = lcm_eventlog_create(path, "r");
@@ -115,13 +117,13 @@ int main(int argc, char **argv) {
     }
     FILE *recording = create(RECORDING_FILE);
     FILE *told = create("published.bin");
-    for (int i = 0; i < RECORDING_DECISIONS; i++) {
+    for (int i = 0; i < decisions; i++) {
         limphome_robot_state_t state;
         limphome_decision_t decision;
         if (!next(log, LIMPHOME_CHANNEL_STATE, decode_state, &state) ||
             !next(log, LIMPHOME_CHANNEL_DECISION, decode_decision, &decision) || decision.session != state.session ||
             decision.seq != state.seq) {
-            fprintf(stderr, "%s: %d decisions are needed, and the state before each\n", path, RECORDING_DECISIONS);
+            fprintf(stderr, "%s: %d decisions are needed, and the state before each\n", path, decisions);
             return 1;
         }
         if (i == 0) {

@@ -2,7 +2,7 @@
 
 #include "platform.h"
 
-int recording_open(lh_controller *controller) {
+int recording_open(lh_controller *controller, int32_t *decisions) {
     static recording_header header;
     const int file = platform_open(RECORDING_FILE, false);
     if (file < 0 || !platform_read(file, &header, sizeof header)) {
@@ -17,6 +17,7 @@ int recording_open(lh_controller *controller) {
         platform_say(RECORDING_FILE " has a bad configuration\n");
         return -1;
     }
+    *decisions = header.decisions;
     return file;
 }
 

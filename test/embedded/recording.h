@@ -8,13 +8,12 @@
 
 #include "limphome/controller.h"
 
-enum { RECORDING_DECISIONS = 10000 };
-
 #define RECORDING_FILE "recording.bin"
 
 typedef struct recording_header {
     uint32_t header_size;
     uint32_t state_size;
+    int32_t decisions;
     lh_config config;
     lh_robot robot;
     lh_controlled controlled;
@@ -29,10 +28,11 @@ typedef struct recorded_decision {
     float stability_margin, goal_distance, lateral_error, heading_error;
 } recorded_decision;
 
-/* Opens the recording and sets up the controller that it is of. The file, or negative after saying what is wrong. */
-int recording_open(lh_controller *controller);
+/* Opens the recording of *decisions decisions and sets up the controller that it is of. The file, or negative after
+ * saying what is wrong. */
+int recording_open(lh_controller *controller, int32_t *decisions);
 
-/* The next of RECORDING_DECISIONS states. */
+/* The next of as many states. */
 bool recording_next(int file, lh_state *state);
 
 #endif

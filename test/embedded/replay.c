@@ -34,21 +34,33 @@ static recorded_decision record(const lh_decision *d, int32_t num_controlled) {
     return r;
 }
 
-/* All but the configuration, whose padding has no definite value, and the scratch, whose layout may differ. */
-static bool save_learner(const lh_q_learning *learner) {
+/* All that Q-learning holds but the configuration, whose padding has no definite value, and the scratch, whose layout
+ * may differ. */
+static bool write_q_learning(int file, const lh_q_learning *learner) {
     const size_t begin = offsetof(lh_q_learning, num_states);
-    const int file = platform_open("learner.bin", true);
     return platform_write(file, (const char *)learner + begin, offsetof(lh_q_learning, scratch) - begin);
+}
+
+static bool save_learner(const lh_learner *learner) {
+    const int file = platform_open("learner.bin", true);
+    switch (learner->kind) {
+        case LH_Q_LEARNING:
+            return write_q_learning(file, &learner->as.q_learning);
+        case LH_PLANNER:
+            return platform_write(file, &learner->as.planner.learned, sizeof learner->as.planner.learned);
+    }
+    return false;
 }
 
 int main(void) {
     static lh_controller controller; /* too large for a comfortable stack */
-    const int states = recording_open(&controller);
+    int32_t count;
+    const int states = recording_open(&controller, &count);
     if (states < 0) {
         return 1;
     }
     const int decisions = platform_open("decisions.bin", true);
-    for (int i = 0; i < RECORDING_DECISIONS; i++) {
+    for (int i = 0; i < count; i++) {
         lh_state state;
         lh_decision decision;
         if (!recording_next(states, &state) || lh_controller_step(&controller, &state, &decision) != LH_OK) {
@@ -61,5 +73,5 @@ int main(void) {
             return 1;
         }
     }
-    return save_learner(&controller.learner.as.q_learning) ? 0 : 1;
+    return save_learner(&controller.learner) ? 0 : 1;
 }

@@ -1,5 +1,5 @@
-/* Takes 10,000 decisions with a simple robot that moves as it is told, learning all the while, and prints a hash of
- * every decision and of what was learned. Builds of the library with other flags or capacities
+/* Takes decisions with a simple robot that moves as it is told, learning all the while, and prints for each kind of
+ * learner a hash of every decision and of what was learned. Builds of the library with other flags or capacities
  * must print the same. */
 #include <inttypes.h>
 #include <stdio.h>
@@ -8,7 +8,6 @@
 #include "crawler.h"
 #include "limphome/controller.h"
 
-enum { DECISIONS = 10000 };
 #define PERIOD 0.5f
 
 static lh_controller controller;
@@ -52,24 +51,50 @@ static void move(lh_state *state, const lh_robot *robot, const lh_decision *deci
     state->actuator_effort[1] = 2000.0f * (lh_random_uniform(random) - 0.5f);
 }
 
-int main(void) {
+static uint64_t hash_planner(uint64_t so_far, const lh_planner_learned *learned) {
+    const lh_motion_model *model = &learned->model;
+    const size_t count = (size_t)model->num_samples;
+    for (int32_t k = 0; k < LH_PLANNED_JOINTS; k++) {
+        so_far = hash(so_far, model->posture[k], count * sizeof model->posture[k][0]);
+    }
+    for (int32_t k = 0; k < LH_MOTION_PARTS; k++) {
+        so_far = hash(so_far, model->motion[k], count * sizeof model->motion[k][0]);
+    }
+    so_far = hash(so_far, model->action, count * sizeof model->action[0]);
+    so_far = hash(so_far, model->updated, count * sizeof model->updated[0]);
+    const size_t nodes = (size_t)learned->values.num_nodes;
+    so_far = hash(so_far, learned->values.value, nodes * sizeof learned->values.value[0]);
+    so_far = hash(so_far, learned->values.cost, nodes * sizeof learned->values.cost[0]);
+    return hash(hash(so_far, &learned->ground, sizeof learned->ground), &learned->random, sizeof learned->random);
+}
+
+static uint64_t hash_learned(uint64_t so_far) {
+    switch (controller.learner.kind) {
+        case LH_Q_LEARNING: {
+            const lh_q_learning *learner = &controller.learner.as.q_learning;
+            return hash(hash_network(so_far, &learner->network), &learner->random, sizeof learner->random);
+        }
+        case LH_PLANNER:
+            return hash_planner(so_far, &controller.learner.as.planner.learned);
+    }
+    return so_far;
+}
+
+/* Takes so many decisions and prints their hash; false if one is refused. */
+static bool decide(const char *name, const lh_config *config, int32_t decisions) {
     const lh_robot robot = crawler_robot();
     const lh_controlled controlled = crawler_controlled();
-    lh_config config = lh_config_default();
-    config.learner.q_learning.network.initial_weight = 0.1f;
-    config.learner.q_learning.network.exact_gradient = true;
-    config.task.episode.goal_distance = 0.5f;
-    if (lh_controller_init(&controller, &config, &robot, &controlled) != LH_OK) {
-        return 1;
+    if (lh_controller_init(&controller, config, &robot, &controlled) != LH_OK) {
+        return false;
     }
     lh_random random;
     lh_random_init(&random, 2);
     lh_state state = crawler_state(0.0f, 0.0f, 0.0f);
     uint64_t result = 14695981039346656037u;
-    for (int32_t k = 0; k < DECISIONS; k++) {
+    for (int32_t k = 0; k < decisions; k++) {
         lh_decision decision;
         if (lh_controller_step(&controller, &state, &decision) != LH_OK) {
-            return 1;
+            return false;
         }
         const lh_choice *c = &decision.choice;
         const float chosen[] = {c->td_error, c->q, c->q_max, c->probability, c->temperature};
@@ -82,8 +107,19 @@ int main(void) {
             move(&state, &robot, &decision, &random);
         }
     }
-    result = hash_network(result, &controller.learner.as.q_learning.network);
-    result = hash(result, &controller.learner.as.q_learning.random, sizeof controller.learner.as.q_learning.random);
-    printf("%016" PRIx64 " after %" PRId32 " episodes\n", result, controller.task.episode.number);
-    return 0;
+    result = hash_learned(result);
+    printf("%s %016" PRIx64 " after %" PRId32 " episodes\n", name, result, controller.task.episode.number);
+    return true;
+}
+
+int main(void) {
+    lh_config config = lh_config_default();
+    config.learner.q_learning.network.initial_weight = 0.1f;
+    config.learner.q_learning.network.exact_gradient = true;
+    config.task.episode.goal_distance = 0.5f;
+    const bool good = decide("q_learning", &config, 10000);
+    config.learner.kind = LH_PLANNER;
+    config.learner.planner.sweeps = 1;
+    config.learner.planner.random_share = 0.1f;
+    return good && decide("planner", &config, 1000) ? 0 : 1;
 }

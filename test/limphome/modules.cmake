@@ -1,9 +1,11 @@
 # The Check tests of the library, room/topic, for the host and for the boards. Those of elementary are not among them: they
 # are billions of double-precision operations, without an FPU for them on the boards; comparing bits says more there.
 set(limphome_test_modules
-  base/error base/random base/vector body/kinematics body/robot body/stability task/action task/episode
-  task/observation task/path task/reward task/task learning/boltzmann learning/learner learning/network
-  learning/q_learning controller limits runs)
+  base/error base/random base/vector body/kinematics body/quasi_static body/rest body/robot body/stability
+  task/action task/episode task/observation task/path task/reward task/task
+  learning/boltzmann learning/learner learning/motion_model learning/network learning/planned learning/planner
+  learning/planning learning/posture_values learning/q_learning
+  controller limits runs)
 
 # Adds the program test_TOPIC of a module, whose tests lie in `folder`, with further sources; names the topic in `result`.
 function(limphome_test module folder result)

@@ -161,6 +161,105 @@ START_TEST(learns_to_drive_forward) {
 }
 END_TEST
 
+/* --- a planner, on a robot that obeys mechanics --- */
+
+/* Moves as quasi-static mechanics says, but that it veers to the right by 0.02 rad in each decision and gets only 0.8
+ * of the way: what no planner can know before it measures. */
+static void quasi_static_move(toy *p, const lh_controller *c, const float *velocity) {
+    const lh_vec3 level = {0.0f, 0.0f, 1.0f};
+    const lh_planned *planned = &c->learner.as.planner.planned;
+    const float angle[LH_MAX_ACTUATORS] = {0.0f, 0.0f, p->joint[0], p->joint[1], p->joint[2]};
+    float share[LH_MAX_ACTUATORS] = {0.0f};
+    for (int32_t k = 0; k < 5; k++) {
+        share[k] = 0.5f * velocity[k] / planned->travel[k];
+    }
+    lh_rest rest;
+    lh_footing footing;
+    lh_rest_find(&c->task.robot, angle, level, 0.03f, &rest);
+    lh_footing_find(&c->task.robot, angle, &rest, level, planned->travel, 0.7f, &footing);
+    const lh_twist t = lh_quasi_static_motion(&footing, 5, share);
+    const float midway = p->heading + 0.5f * t.turn;
+    p->x += 0.8f * (t.forward * lh_cos(midway) - t.sideways * lh_sin(midway));
+    p->y += 0.8f * (t.forward * lh_sin(midway) + t.sideways * lh_cos(midway));
+    p->heading = lh_wrap_angle(p->heading + t.turn - 0.02f);
+    toy still = *p;
+    toy_move(&still, velocity);
+    memcpy(p->joint, still.joint, sizeof p->joint);
+}
+
+static lh_state lying_state(const toy *p, const lh_controller *c) {
+    lh_state state = crawler_state(p->x, p->y, p->heading);
+    memcpy(&state.actuator_position[2], p->joint, sizeof p->joint);
+    const float angle[LH_MAX_ACTUATORS] = {0.0f, 0.0f, p->joint[0], p->joint[1], p->joint[2]};
+    lh_rest rest;
+    lh_rest_find(&c->task.robot, angle, (lh_vec3){0.0f, 0.0f, 1.0f}, 0.03f, &rest);
+    state.orientation = lh_quat_multiply(state.orientation, lh_rest_upright(rest.normal));
+    return state;
+}
+
+static lh_decision quasi_static_turn(lh_controller *c, toy *plant) {
+    const lh_state state = lying_state(plant, c);
+    const lh_decision decision = step(c, &state);
+    if (decision.observed.reset) {
+        *plant = toy_start();
+    } else {
+        quasi_static_move(plant, c, decision.velocity);
+    }
+    return decision;
+}
+
+static lh_config planner_config(void) {
+    lh_config config = lh_config_default();
+    config.learner.kind = LH_PLANNER;
+    config.learner.planner.sweeps = 3;
+    config.task.episode.step_limit = 100;
+    return config;
+}
+
+/* The left crawler does not turn; what the others do must bring it straight ahead. */
+START_TEST(a_planner_learns_to_go_straight) {
+    const lh_config config = planner_config();
+    init(&controller, &config);
+    toy plant = toy_start();
+    int32_t goals = 0;
+    float lateral = 0.0f;
+    for (int32_t i = 0; goals < 8 && i < 400; i++) {
+        const lh_decision d = quasi_static_turn(&controller, &plant);
+        goals += d.observed.outcome == LH_OUTCOME_GOAL;
+        lateral = d.observed.outcome == LH_OUTCOME_GOAL ? d.observed.summary.lateral_error : lateral;
+    }
+    ck_assert_int_eq(goals, 8);
+    ck_assert_float_lt(lateral * lateral, 0.15f * 0.15f);
+}
+END_TEST
+
+START_TEST(a_restored_planner_is_equal_bit_by_bit) {
+    lh_config config = planner_config();
+    config.learner.planner.sweeps = 0;
+    config.task.episode.reset_every = 1;
+    config.task.episode.step_limit = 10;
+    init(&controller, &config);
+    toy a = toy_start();
+    lh_decision d = {.observed = {.reset = false}};
+    for (int32_t i = 0; d.observed.episode < 3 || !d.observed.reset; i++) {
+        ck_assert_int_lt(i, 100);
+        d = quasi_static_turn(&controller, &a);
+    }
+    static lh_learned learned;
+    lh_learner_save(&controller.learner, &learned);
+    init(&other, &config);
+    ck_assert_int_eq(lh_controller_restore(&other, &learned, d.observed.summary.number + 1), LH_OK);
+    toy b = toy_start();
+    for (int32_t i = 0; i < 30; i++) {
+        const lh_decision da = quasi_static_turn(&controller, &a);
+        const lh_decision db = quasi_static_turn(&other, &b);
+        ck_assert_mem_eq(&da, &db, sizeof da);
+    }
+    ck_assert_mem_eq(&controller.learner.as.planner.learned, &other.learner.as.planner.learned,
+                     sizeof(lh_planner_learned));
+}
+END_TEST
+
 Suite *suite(void) {
     Suite *s = suite_create("runs");
     TCase *t = tcase_create("runs on a toy plant");
@@ -171,6 +270,10 @@ Suite *suite(void) {
     t = tcase_create("reproduction");
     tcase_add_test(t, equal_runs_are_equal_bit_by_bit);
     tcase_add_test(t, restored_run_is_equal_bit_by_bit);
+    suite_add_tcase(s, t);
+    t = tcase_create("planner");
+    tcase_add_test(t, a_planner_learns_to_go_straight);
+    tcase_add_test(t, a_restored_planner_is_equal_bit_by_bit);
     suite_add_tcase(s, t);
     return s;
 }

@@ -2,18 +2,22 @@
  * Define any of them on the command line to make the library smaller or larger; all sources and callers must agree.
  *
  * At most so many bytes, with S = LH_UNIT_SLOTS, U = LH_MAX_UNITS, C = LH_COLUMN_SLOTS, A = LH_MAX_ACTUATORS, 3 or
- * more, L = LH_MAX_LINKS and P = LH_MAX_SUPPORTS,
- * W = LH_MAX_WAYPOINTS:
+ * more, L = LH_MAX_LINKS, P = LH_MAX_SUPPORTS, W = LH_MAX_WAYPOINTS, N = LH_MAX_SAMPLES, M = LH_MAX_POSTURES,
+ * K = LH_MAX_PLANNED and B = LH_PLANNED_ACTIONS:
  *
  *     lh_network         8 + 4 S (2 A + 4)
  *     lh_action_scratch  4 S (3 A + 6) + 4 U C
- *     lh_learner         lh_network + lh_action_scratch + 4 LH_MAX_ACTIONS + 4 A + 144
+ *     lh_q_learning      lh_network + lh_action_scratch + 4 LH_MAX_ACTIONS + 4 A + 136
+ *     lh_planner_learned 22 N + 20 M + 120
+ *     lh_planner         lh_planner_learned + (52 + K) B + 8 A P + 24 A + 64 L + 36 P + 8 W + 8 K + 716
+ *     lh_learner         the larger of lh_q_learning and lh_planner, + 12
  *     lh_task            20 A + 64 L + 20 P + 8 W + 192
  *     lh_controller      lh_learner + lh_task
  *
- * and on the stack, where lh_controller_step takes the most, about 1300 + 4 S (A - 2).
+ * and on the stack, where lh_controller_step takes the most, about 1750 + 70 P.
  *
- * The time of a decision grows with S and the number of joint actions. */
+ * The time of a decision grows with the number of joint actions, and with S or N. Only the actions, the samples and the
+ * postures that a robot has are computed with; N and M decide what a planner learns, all else only what fits. */
 #ifndef LIMPHOME_CAPACITY_H
 #define LIMPHOME_CAPACITY_H
 
@@ -36,17 +40,17 @@
 #define LH_MAX_ACTIONS 6561 /* joint actions, LH_ACTION_LEVELS ^ LH_MAX_ACTUATORS */
 #endif
 #ifndef LH_MAX_SAMPLES
-#define LH_MAX_SAMPLES 1024 /* measured motions that the planner keeps */
+#define LH_MAX_SAMPLES 1024 /* measured motions that the planner keeps, a multiple of 16 */
 #endif
 #ifndef LH_MAX_POSTURES
 #define LH_MAX_POSTURES 1200 /* postures of the arm for which it plans */
 #endif
 #ifndef LH_MAX_PLANNED
-#define LH_MAX_PLANNED 5 /* actuators it plans with, of which LH_PLANNED_JOINTS at most are joints */
+#define LH_MAX_PLANNED 5 /* actuators it plans with: LH_PLANNED_JOINTS joints and two crawlers; 4: one crawler */
 #endif
 
 #define LH_PLANNED_JOINTS 3
-#define LH_PLANNED_ACTIONS 243 /* LH_ACTION_LEVELS ^ LH_MAX_PLANNED */
+#define LH_PLANNED_ACTIONS (LH_MAX_PLANNED == 4 ? 81 : 243) /* LH_ACTION_LEVELS ^ LH_MAX_PLANNED */
 
 #define LH_ACTION_LEVELS 3                         /* reverse, still, forward: Table 1 */
 #define LH_MAX_INPUTS (2 * LH_MAX_ACTUATORS + 2)   /* states and actions of all actuators, roll, pitch */

@@ -12,11 +12,14 @@
 #define WIDE_WEIGHT 0.1f                       /* of the wide kernel's answer against the narrow one */
 #define BLOCK 16                               /* samples whose distances are taken at a time: vector code */
 
+_Static_assert(LH_MAX_SAMPLES % BLOCK == 0, "a block lies within the samples");
+
 static float clip(float x, float low, float high) {
     return x < low ? low : (x > high ? high : x);
 }
 
 static int16_t nearest(float x) {
+    x = clip(x, -32767.0f, 32767.0f);
     return (int16_t)(x < 0.0f ? x - 0.5f : x + 0.5f);
 }
 

@@ -6,6 +6,8 @@
 
 #define CLEARANCE 0.03f /* this near to its limit a joint is not driven towards it [rad] */
 
+_Static_assert(LH_MAX_PLANNED == 4 || LH_MAX_PLANNED == 5, "one crawler or two, and the joints");
+
 static void add(lh_planned *planned, const lh_task *task, int32_t place) {
     int32_t index = task->controlled.index[place];
     const lh_actuator *actuator = &task->robot.actuators[index];
@@ -58,12 +60,12 @@ const int8_t *lh_planned_joint_levels(const lh_planned *planned, int32_t action)
     return planned->level[action] + planned->num_crawlers;
 }
 
-bool lh_planned_is_still(const lh_planned *planned, int32_t action) {
-    return action == planned->num_actions / 2; /* all digits 1 */
+int32_t lh_planned_still(const lh_planned *planned) {
+    return planned->num_actions / 2; /* all digits 1 */
 }
 
 bool lh_planned_allows(const lh_planned *planned, const float *angle, int32_t action) {
-    if (lh_planned_is_still(planned, action)) {
+    if (action == lh_planned_still(planned)) {
         return false;
     }
     const int8_t *level = lh_planned_joint_levels(planned, action);

@@ -40,8 +40,8 @@ void lh_planned_set_angles(const lh_planned *planned, const float *angle, float 
 /* Levels of the joints of an action: [num_joints]. */
 const int8_t *lh_planned_joint_levels(const lh_planned *planned, int32_t action);
 
-/* Whether `action` leaves everything as it is. */
-bool lh_planned_is_still(const lh_planned *planned, int32_t action);
+/* The action that leaves everything as it is. */
+int32_t lh_planned_still(const lh_planned *planned);
 
 /* Whether `action` does something at angle[num_joints], and pushes no joint that is at its limit. */
 bool lh_planned_allows(const lh_planned *planned, const float *angle, int32_t action);

@@ -147,20 +147,22 @@ static void watch_progress(lh_planner *planner, const lh_observed *observed) {
     }
 }
 
-/* Any of the actions that are allowed, or -1 if there is none. */
+/* Any of the actions that are allowed; to stand still if there is none. */
 static int32_t choose_at_random(lh_planner *planner, const float *angle) {
     const lh_planned *planned = &planner->planned;
     int32_t count = 0;
     for (int32_t a = 0; a < planned->num_actions; a++) {
         count += lh_planned_allows(planned, angle, a);
     }
+    int32_t chosen = lh_planned_still(planned);
     int32_t rest = (int32_t)(lh_random_uniform(&planner->learned.random) * (float)count);
-    for (int32_t a = 0; a < planned->num_actions; a++) {
-        if (lh_planned_allows(planned, angle, a) && rest-- == 0) {
-            return a;
+    for (int32_t a = 0; a < planned->num_actions && rest >= 0; a++) {
+        if (lh_planned_allows(planned, angle, a)) {
+            chosen = a;
+            rest--;
         }
     }
-    return -1;
+    return chosen;
 }
 
 static lh_option choose(lh_planner *planner, const float *angle, lh_course course, bool greedy) {
@@ -226,7 +228,7 @@ lh_error lh_planner_restore(lh_planner *planner, const lh_planner_learned *saved
                 lh_posture_values_fit(&saved->values, &learned->values) &&
                 is_count(saved->turn, 0, saved->values.num_nodes - 1) &&
                 is_count(saved->decisions, 0, LH_LAST_DECISION) && lh_within(ground.x, -1.0f, 1.0f) &&
-                lh_within(ground.y, -1.0f, 1.0f) && lh_within(ground.z, LH_LEAST_GROUND, 1.001f) &&
+                lh_within(ground.y, -1.0f, 1.0f) && lh_within(ground.z, 0.999f * LH_LEAST_GROUND, 1.001f) &&
                 lh_within(lh_vec3_norm(ground), 0.999f, 1.001f);
     if (!good) {
         return LH_ERROR_PLANNER;

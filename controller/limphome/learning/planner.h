@@ -31,7 +31,7 @@ extern "C" {
 
 /* Ranges of lh_planner_config. */
 #define LH_PLANNER_WEIGHT_MAX 100.0f /* of weights in the planning reward */
-#define LH_CANDIDATES_MAX 16
+#define LH_CANDIDATES_MAX 10
 #define LH_SWEEPS_MAX 100
 #define LH_BACKUPS_MAX 1000
 #define LH_DECISION_PERIOD_MIN 0.01f /* [s] */
@@ -67,9 +67,26 @@ typedef struct lh_planner_learned {
 /* What the robot would do at a posture. */
 typedef struct lh_outlook {
     lh_rest rest;
+    lh_footing footing;
     lh_twist expected[LH_PLANNED_ACTIONS]; /* by mechanics alone */
     lh_motion_sums sums[LH_PLANNED_ACTIONS];
 } lh_outlook;
+
+/* Where the robot is against its line. */
+typedef struct lh_course {
+    float heading; /* error [rad] */
+    float lateral; /* error [m] */
+} lh_course;
+
+/* An action taken where the arm is, and where it leads. */
+typedef struct lh_option {
+    int32_t action;                 /* of lh_planner.planned */
+    float reward;                   /* for the step itself */
+    float value;                    /* with all that follows */
+    lh_twist expected;              /* by mechanics alone */
+    lh_course course;               /* then */
+    float angle[LH_PLANNED_JOINTS]; /* then [rad] */
+} lh_option;
 
 typedef struct lh_planner {
     lh_planner_config config;
@@ -90,6 +107,7 @@ typedef struct lh_planner {
     float joint_angle[LH_MAX_ACTUATORS]; /* of the newest state [rad] */
     lh_vec3 up;                          /* vertical in the frame of the ground, x along the line: rest.h */
     lh_outlook outlook;
+    lh_option best[LH_CANDIDATES_MAX]; /* of the options where the robot is, in falling order of their values */
 } lh_planner;
 
 lh_planner_config lh_planner_config_default(void);

@@ -59,9 +59,11 @@ void lh_planning_assess(lh_planner *planner) {
 /* What mechanics says each action does. Where the arm does not carry, its joints do not matter, and the crawlers'
  * digits, which are the lowest of an action's number, decide alone. On level ground the opposite of an action, its
  * number counted from the end, does the opposite. */
-static void expect(const lh_planner *planner, const lh_footing *footing, bool braced, lh_twist *expected) {
+static void expect(const lh_planner *planner, lh_outlook *outlook) {
     const lh_planned *planned = &planner->planned;
-    int32_t different = braced ? planned->num_actions : planned->num_crawler_actions;
+    const lh_footing *footing = &outlook->footing;
+    lh_twist *expected = outlook->expected;
+    int32_t different = outlook->rest.braced ? planned->num_actions : planned->num_crawler_actions;
     for (int32_t a = 0; a < planned->num_actions; a++) {
         int32_t opposite = planned->num_actions - 1 - a;
         if (a >= different) {
@@ -84,10 +86,9 @@ void lh_planning_look(lh_planner *planner, const float *angle) {
     float joint_angle[LH_MAX_ACTUATORS];
     find_rest(planner, angle, joint_angle, &outlook->rest);
     if (planner->config.mechanics) {
-        lh_footing footing;
         lh_footing_find(&planner->robot, joint_angle, &outlook->rest, planner->up, planner->planned.travel, FRICTION,
-                        &footing);
-        expect(planner, &footing, outlook->rest.braced, outlook->expected);
+                        &outlook->footing);
+        expect(planner, outlook);
     }
     lh_motion_model_gather(&planner->learned.model, angle, outlook->sums);
 }
@@ -144,7 +145,7 @@ void lh_planning_back_up(lh_planner *planner, int32_t node) {
     }
     for (int32_t a = 0; a < planner->planned.num_actions; a++) {
         int32_t next = lh_posture_neighbour(values, node, lh_planned_joint_levels(&planner->planned, a));
-        if (next != LH_NO_NODE && !lh_planned_is_still(&planner->planned, a)) {
+        if (next != LH_NO_NODE && a != lh_planned_still(&planner->planned)) {
             lh_motion motion = predict(planner, a);
             compare(planner, &motion, motion.moved < JAMMED ? node : next, best);
         }
@@ -162,11 +163,8 @@ void lh_planning_back_up_in_turn(lh_planner *planner, int32_t count) {
     }
 }
 
-bool lh_planning_consider(const lh_planner *planner, const float *angle, lh_course course, int32_t action,
+void lh_planning_consider(const lh_planner *planner, const float *angle, lh_course course, int32_t action,
                           lh_option *option) {
-    if (!lh_planned_allows(&planner->planned, angle, action)) {
-        return false;
-    }
     const lh_posture_values *values = &planner->learned.values;
     lh_motion motion = predict(planner, action);
     option->action = action;
@@ -179,7 +177,6 @@ bool lh_planning_consider(const lh_planner *planner, const float *angle, lh_cour
     option->reward -= lh_posture_cost(values, &cell);
     option->value = option->reward +
                     planner->config.discount_rate * lh_posture_value(values, &cell, lh_course_steering(option->course));
-    return true;
 }
 
 /* Value of the best action that follows. */
@@ -187,9 +184,10 @@ static float look_further(lh_planner *planner, const lh_option *from) {
     lh_planning_look(planner, from->angle);
     float best = -FLT_MAX;
     for (int32_t a = 0; a < planner->planned.num_actions; a++) {
-        lh_option next;
-        if (lh_planning_consider(planner, from->angle, from->course, a, &next) && next.value > best) {
-            best = next.value;
+        if (lh_planned_allows(&planner->planned, from->angle, a)) {
+            lh_option next;
+            lh_planning_consider(planner, from->angle, from->course, a, &next);
+            best = next.value > best ? next.value : best;
         }
     }
     return best;
@@ -209,11 +207,13 @@ static int32_t rank(lh_option *best, int32_t count, int32_t most, const lh_optio
 }
 
 lh_option lh_planning_choose(lh_planner *planner, const float *angle, lh_course course) {
-    lh_option best[LH_CANDIDATES_MAX];
+    lh_option *best = planner->best;
+    lh_planning_consider(planner, angle, course, lh_planned_still(&planner->planned), &best[0]);
     int32_t count = 0;
     for (int32_t a = 0; a < planner->planned.num_actions; a++) {
-        lh_option candidate;
-        if (lh_planning_consider(planner, angle, course, a, &candidate)) {
+        if (lh_planned_allows(&planner->planned, angle, a)) {
+            lh_option candidate;
+            lh_planning_consider(planner, angle, course, a, &candidate);
             count = rank(best, count, planner->config.candidates, &candidate);
         }
     }

@@ -2,16 +2,9 @@
 #ifndef LIMPHOME_PLANNING_H
 #define LIMPHOME_PLANNING_H
 
-#include <stdbool.h>
 #include <stdint.h>
 
 #include "limphome/learning/planner.h"
-
-/* Where the robot is against its line. */
-typedef struct lh_course {
-    float heading; /* error [rad] */
-    float lateral; /* error [m] */
-} lh_course;
 
 /* Steering error: planner.h [rad]. */
 float lh_course_steering(lh_course course);
@@ -28,22 +21,12 @@ void lh_planning_back_up(lh_planner *planner, int32_t node);
 /* The same at `count` nodes, one after the other from where it was left the last time. */
 void lh_planning_back_up_in_turn(lh_planner *planner, int32_t count);
 
-/* An action taken where the arm is, and where it leads. */
-typedef struct lh_option {
-    int32_t action;                 /* of planner->planned */
-    float reward;                   /* for the step itself */
-    float value;                    /* with all that follows */
-    lh_twist expected;              /* by mechanics alone */
-    lh_course course;               /* then */
-    float angle[LH_PLANNED_JOINTS]; /* then [rad] */
-} lh_option;
-
-/* The posture looked at is angle[planned.num_joints]. False if the action is not allowed there. */
-bool lh_planning_consider(const lh_planner *planner, const float *angle, lh_course course, int32_t action,
+/* What comes of an action in the posture looked at, which is angle[planned.num_joints]. */
+void lh_planning_consider(const lh_planner *planner, const float *angle, lh_course course, int32_t action,
                           lh_option *option);
 
-/* The one that promises most, by a search of two steps. The posture looked at is angle[planned.num_joints], and after
- * the call another. */
+/* The one that promises most of those that are allowed, by a search of two steps; to stand still where none is. The
+ * posture looked at is angle[planned.num_joints], and after the call another. */
 lh_option lh_planning_choose(lh_planner *planner, const float *angle, lh_course course);
 
 #endif

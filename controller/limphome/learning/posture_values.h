@@ -24,7 +24,6 @@ typedef struct lh_posture_values {
     float spacing[LH_PLANNED_JOINTS];             /* from one to the next [rad] */
     int16_t value[LH_MAX_POSTURES][LH_STEERINGS]; /* [num_nodes] in 1/256 of reward */
     int16_t cost[LH_MAX_POSTURES]; /* [num_nodes] of standing there for a decision, in 1/1024 of reward */
-    bool braced[LH_MAX_POSTURES];  /* [num_nodes] whether the arm carries there: rest.h */
 } lh_posture_values;
 
 /* Where a posture lies in the lattice. */

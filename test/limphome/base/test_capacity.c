@@ -10,6 +10,7 @@ static lh_q_learning learner;
 static lh_q_learning same;
 
 _Static_assert(LH_MAX_ACTUATORS >= 5 && LH_MAX_ACTIONS == 81, "room for 5 actuators, but for the actions of 4 only");
+_Static_assert(LH_MAX_PLANNED == 4, "a planner has room for one crawler only");
 
 START_TEST(learner_refuses_more_actions_than_it_has_room_for) {
     lh_q_learning_config config = lh_q_learning_config_default();
@@ -59,12 +60,33 @@ START_TEST(chooses_among_all_actions) {
 }
 END_TEST
 
+/* Of two crawlers, the second stands still. */
+START_TEST(a_planner_plans_with_one_crawler_where_there_is_no_room_for_two) {
+    lh_config config = lh_config_default();
+    config.learner.kind = LH_PLANNER;
+    config.learner.planner.sweeps = 0;
+    const lh_robot robot = crawler_robot();
+    const lh_controlled crawlers_and_arm = {.count = 4, .index = {0, 1, 2, 3}};
+    ck_assert_int_eq(lh_controller_init(&controller, &config, &robot, &crawlers_and_arm), LH_OK);
+    const lh_planned *planned = &controller.learner.as.planner.planned;
+    ck_assert_int_eq(planned->num_crawlers, 1);
+    ck_assert_int_eq(planned->num_joints, 2);
+    const lh_state state = crawler_state(0.0f, 0.0f, 0.0f);
+    for (int32_t i = 0; i < 20; i++) {
+        lh_decision decision;
+        ck_assert_int_eq(lh_controller_step(&controller, &state, &decision), LH_OK);
+        ck_assert(decision.velocity[1] == 0.0f);
+    }
+}
+END_TEST
+
 Suite *suite(void) {
     Suite *s = suite_create("capacity");
-    TCase *t = tcase_create("joint actions");
+    TCase *t = tcase_create("actions");
     tcase_add_test(t, learner_refuses_more_actions_than_it_has_room_for);
     tcase_add_test(t, controller_refuses_more_actions_than_it_has_room_for);
     tcase_add_test(t, chooses_among_all_actions);
+    tcase_add_test(t, a_planner_plans_with_one_crawler_where_there_is_no_room_for_two);
     suite_add_tcase(s, t);
     return s;
 }

@@ -75,6 +75,21 @@ START_TEST(bad_fields_of_the_kind_are_named) {
 }
 END_TEST
 
+START_TEST(bad_fields_of_a_planner_are_named) {
+    const lh_task task = make_task();
+    lh_learner_config config = lh_learner_config_default();
+    config.q_learning.discount_rate = 2.0f; /* of no concern to it */
+    config.kind = LH_PLANNER;
+    ck_assert_int_eq(lh_learner_config_validate(&config), LH_OK);
+    config.planner.backups = -1;
+    memset(&learner, 0x5a, sizeof learner);
+    memset(&other, 0x5a, sizeof other);
+    ck_assert_int_eq(lh_learner_config_validate(&config), LH_ERROR_PLANNER);
+    ck_assert_int_eq(lh_learner_init(&learner, &config, &task), LH_ERROR_PLANNER);
+    ck_assert_mem_eq(&learner, &other, sizeof learner);
+}
+END_TEST
+
 START_TEST(nothing_is_done_by_what_is_no_learner) {
     init(&learner);
     learner.kind = unknown;
@@ -150,7 +165,68 @@ START_TEST(what_was_saved_goes_on_bit_by_bit) {
     lh_learned again;
     lh_learner_save(&learner, &learned);
     lh_learner_save(&other, &again);
-    ck_assert_mem_eq(&learned.as, &again.as, sizeof again.as);
+    ck_assert_mem_eq(&learned.as.q_learning, &again.as.q_learning, sizeof again.as.q_learning);
+}
+END_TEST
+
+/* --- a planner --- */
+
+static void init_planner(lh_learner *l, bool learns) {
+    const lh_task task = make_task();
+    lh_learner_config config = lh_learner_config_default();
+    config.kind = LH_PLANNER;
+    config.learn = learns;
+    config.planner.sweeps = 0;
+    config.planner.random_share = 0.3f;
+    ck_assert_int_eq(lh_learner_init(l, &config, &task), LH_OK);
+}
+
+/* Going on along x. */
+static lh_choice planner_step(lh_learner *l, int32_t i) {
+    lh_observed observed = observed_after(i > 0, 0.0f);
+    observed.pose.x = 0.1f * (float)i;
+    observed.attitude.w = 1.0f;
+    observed.goal_distance = 5.0f - observed.pose.x;
+    lh_choice choice;
+    lh_learner_step(l, &observed, &choice);
+    return choice;
+}
+
+START_TEST(a_planner_is_a_learner) {
+    init_planner(&learner, true);
+    ck_assert_int_eq(learner.kind, LH_PLANNER);
+    ck_assert_float_eq(lh_learner_temperature(&learner, 1), 0.0f);
+    ck_assert(!planner_step(&learner, 0).learned);
+    ck_assert(planner_step(&learner, 1).learned);
+    lh_learner_begin(&learner);
+    ck_assert(!planner_step(&learner, 2).learned);
+    learner.learn = false;
+    ck_assert(!planner_step(&learner, 3).learned);
+    init_planner(&other, false);
+    ck_assert(!planner_step(&other, 0).learned);
+    ck_assert(!planner_step(&other, 1).learned);
+}
+END_TEST
+
+START_TEST(a_planner_goes_on_bit_by_bit) {
+    init_planner(&learner, true);
+    for (int32_t i = 0; i < 10; i++) {
+        planner_step(&learner, i);
+    }
+    static lh_learned learned;
+    static lh_learned again;
+    lh_learner_save(&learner, &learned);
+    lh_learner_begin(&learner);
+    init_planner(&other, true);
+    ck_assert_int_eq(lh_learner_restore(&other, &learned), LH_OK);
+    for (int32_t i = 0; i < 10; i++) {
+        ck_assert_int_eq(planner_step(&learner, i).action, planner_step(&other, i).action);
+    }
+    lh_learner_save(&learner, &learned);
+    lh_learner_save(&other, &again);
+    ck_assert_mem_eq(&learned.as.planner, &again.as.planner, sizeof again.as.planner);
+    init(&other);
+    ck_assert_int_eq(lh_learner_restore(&other, &learned), LH_ERROR_LEARNER);
 }
 END_TEST
 
@@ -171,6 +247,7 @@ Suite *suite(void) {
     tcase_add_test(t, defaults_are_those_of_the_paper);
     tcase_add_test(t, an_unknown_kind_is_refused);
     tcase_add_test(t, bad_fields_of_the_kind_are_named);
+    tcase_add_test(t, bad_fields_of_a_planner_are_named);
     tcase_add_test(t, nothing_is_done_by_what_is_no_learner);
     suite_add_tcase(s, t);
     t = tcase_create("steps");
@@ -181,6 +258,10 @@ Suite *suite(void) {
     t = tcase_create("saving");
     tcase_add_test(t, what_was_saved_goes_on_bit_by_bit);
     tcase_add_test(t, what_another_kind_has_saved_is_refused);
+    suite_add_tcase(s, t);
+    t = tcase_create("planner");
+    tcase_add_test(t, a_planner_is_a_learner);
+    tcase_add_test(t, a_planner_goes_on_bit_by_bit);
     suite_add_tcase(s, t);
     return s;
 }
