@@ -57,9 +57,12 @@ static lh_rest stand(const lh_robot *robot, const lh_posture *posture, const pla
         if (height(ground, posture->supports[i]) <= tolerance) {
             rest.carrying[count] = i;
             carrying[count++] = lh_quat_rotate(turn, posture->supports[i]);
-            rest.braced = rest.braced || robot->supports[i].link != 0;
+            if (robot->supports[i].link != 0) {
+                rest.braced = true;
+            }
         }
     }
+    //@ split count; // for Frama-C: so many are set
     rest.num_carrying = count;
     rest.margin = lh_stability_margin(carrying, count, lh_quat_rotate(turn, posture->centre_of_mass));
     return rest;

@@ -15,7 +15,7 @@
 _Static_assert(LH_MAX_SAMPLES % BLOCK == 0, "a block lies within the samples");
 
 static float clip(float x, float low, float high) {
-    return x < low ? low : (x > high ? high : x);
+    return x > low ? (x < high ? x : high) : low;
 }
 
 static int16_t nearest(float x) {
@@ -157,20 +157,29 @@ void lh_motion_model_correct(const lh_motion_model *model, const lh_motion_sums 
     }
 }
 
-bool lh_motion_model_fits(const lh_motion_model *saved, const lh_motion_model *model) {
-    bool fits = saved->num_actions == model->num_actions && saved->num_joints == model->num_joints &&
-                saved->prior_weight == model->prior_weight && saved->num_samples >= 0 &&
-                saved->num_samples <= LH_MAX_SAMPLES;
+static bool is_of_same_kind(const lh_motion_model *saved, const lh_motion_model *model) {
+    bool same = saved->num_actions == model->num_actions && saved->num_joints == model->num_joints &&
+                saved->prior_weight == model->prior_weight;
     for (int32_t k = 0; k < LH_PLANNED_JOINTS; k++) {
-        fits = fits && saved->low[k] == model->low[k] && saved->width[k] == model->width[k];
+        same = same && saved->low[k] == model->low[k] && saved->width[k] == model->width[k];
     }
-    for (int32_t i = 0; fits && i < saved->num_samples; i++) {
-        fits = saved->action[i] >= 0 && saved->action[i] < saved->num_actions && saved->count[i] >= 1 &&
-               saved->count[i] <= LH_SAMPLE_COUNT_MAX;
+    return same;
+}
+
+bool lh_motion_model_fits(const lh_motion_model *saved, const lh_motion_model *model) {
+    if (!is_of_same_kind(saved, model) || saved->num_samples < 0 || saved->num_samples > LH_MAX_SAMPLES) {
+        return false;
+    }
+    for (int32_t i = 0; i < saved->num_samples; i++) {
+        if (saved->action[i] < 0 || saved->action[i] >= model->num_actions || saved->count[i] < 1 ||
+            saved->count[i] > LH_SAMPLE_COUNT_MAX) {
+            return false;
+        }
         for (int32_t k = 0; k < LH_PLANNED_JOINTS; k++) {
-            fits = fits && saved->posture[k][i] >= -(int16_t)UNITS_PER_WIDTH &&
-                   saved->posture[k][i] <= (int16_t)COORDINATE_MAX;
+            if (saved->posture[k][i] < -(int16_t)UNITS_PER_WIDTH || saved->posture[k][i] > (int16_t)COORDINATE_MAX) {
+                return false;
+            }
         }
     }
-    return fits;
+    return true;
 }

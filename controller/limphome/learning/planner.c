@@ -228,7 +228,7 @@ lh_error lh_planner_restore(lh_planner *planner, const lh_planner_learned *saved
     lh_vec3 ground = saved->ground;
     bool good = lh_motion_model_fits(&saved->model, &learned->model) &&
                 lh_posture_values_fit(&saved->values, &learned->values) &&
-                is_count(saved->turn, 0, saved->values.num_nodes - 1) &&
+                is_count(saved->turn, 0, learned->values.num_nodes - 1) &&
                 is_count(saved->decisions, 0, LH_LAST_DECISION) && lh_within(ground.x, -1.0f, 1.0f) &&
                 lh_within(ground.y, -1.0f, 1.0f) && lh_within(ground.z, 0.999f * LH_LEAST_GROUND, 1.001f) &&
                 lh_within(lh_vec3_norm(ground), 0.999f, 1.001f);

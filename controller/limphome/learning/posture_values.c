@@ -67,19 +67,18 @@ void lh_posture_angles(const lh_posture_values *values, int32_t node, float *ang
 }
 
 int32_t lh_posture_neighbour(const lh_posture_values *values, int32_t node, const int8_t *level) {
-    int32_t rest = node;
+    int32_t next = 0;
     int32_t stride = 1;
     for (int32_t k = values->num_joints - 1; k >= 0; k--) {
-        int32_t place = rest % values->count[k];
-        int32_t step = level[k] - 1;
-        rest /= values->count[k];
-        if (place + step < 0 || place + step >= values->count[k]) {
+        int32_t place = node % values->count[k] + level[k] - 1;
+        node /= values->count[k];
+        if (place < 0 || place >= values->count[k]) {
             return LH_NO_NODE;
         }
-        node += step * stride;
+        next += place * stride;
         stride *= values->count[k];
     }
-    return node;
+    return next;
 }
 
 void lh_posture_cell(const lh_posture_values *values, const float *angle, lh_cell *cell) {
@@ -93,7 +92,7 @@ void lh_posture_cell(const lh_posture_values *values, const float *angle, lh_cel
         if (k < values->num_joints && values->count[k] > 1) {
             float scaled = (angle[k] - values->low[k]) / values->spacing[k];
             float last = (float)(values->count[k] - 1);
-            scaled = scaled < 0.0f ? 0.0f : (scaled > last ? last : scaled);
+            scaled = scaled > 0.0f ? (scaled < last ? scaled : last) : 0.0f;
             place = (int32_t)scaled;
             place = place > values->count[k] - 2 ? values->count[k] - 2 : place;
             share = scaled - (float)place;

@@ -89,6 +89,17 @@ START_TEST(nodes_cost_what_their_margin_says) {
 }
 END_TEST
 
+/* On a wall, say. */
+START_TEST(a_posture_without_rest_costs_most) {
+    init_usual();
+    planner.up = (lh_vec3){0.0f, 0.995f, 0.0998749f};
+    lh_planning_assess(&planner);
+    for (int32_t node = 0; node < planner.learned.values.num_nodes; node += 7) {
+        expect_near(lh_posture_node_cost(&planner.learned.values, node), exp(1.0) + 9.0, 1e-3);
+    }
+}
+END_TEST
+
 /* Whatever is saved of the work: opposite actions, and joints that do not matter. */
 START_TEST(every_action_is_expected_to_do_what_mechanics_says) {
     const float postures[][LH_PLANNED_JOINTS] = {{0.0f, 0.6f, -1.0f}, {1.3f, -0.5f, -0.9f}};
@@ -359,6 +370,7 @@ Suite *suite(void) {
     TCase *t = tcase_create("looking");
     tcase_add_test(t, steering_error_is_of_heading_and_place);
     tcase_add_test(t, nodes_cost_what_their_margin_says);
+    tcase_add_test(t, a_posture_without_rest_costs_most);
     tcase_add_test(t, every_action_is_expected_to_do_what_mechanics_says);
     tcase_add_test(t, without_mechanics_nothing_is_expected);
     suite_add_tcase(s, t);
