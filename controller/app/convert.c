@@ -77,6 +77,7 @@ static lh_planner_config convert_planner(const settings *s) {
         .mechanics = s->planner.mechanics == SETTINGS_MECHANICS_QUASI_STATIC,
         .steering = (float)s->planner.steering,
         .unsafe = (float)s->planner.unsafe,
+        .caution = (float)s->planner.caution,
         .random_share = (float)s->planner.random_share,
         .candidates = (int32_t)s->planner.candidates,
         .sweeps = (int32_t)s->planner.sweeps,

@@ -58,6 +58,7 @@ START_TEST(default_settings_are_the_librarys_defaults) {
     SAME(learner.planner.mechanics);
     SAME(learner.planner.steering);
     SAME(learner.planner.unsafe);
+    SAME(learner.planner.caution);
     SAME(learner.planner.random_share);
     SAME(learner.planner.candidates);
     SAME(learner.planner.sweeps);

@@ -31,6 +31,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     setup given;
     memset(&given, 0, sizeof given);
     given.config = lh_config_default();
+    given.config.learner.planner.sweeps = 0; /* slow, and no more than what steps do */
     given.robot = crawler_robot();
     given.controlled = crawler_controlled();
     fuzz_input in = {data, size};

@@ -25,11 +25,14 @@ static lh_config varied(uint8_t choices) {
     return config;
 }
 
+/* One that plans little, as here it is the number of steps that counts. */
 static lh_learner_config varied_planner(const lh_learner_config *standard, uint8_t choices) {
     lh_learner_config config = *standard;
     config.kind = (choices & 1) != 0 ? LH_PLANNER : LH_Q_LEARNING;
     config.planner.mechanics = (choices & 2) != 0;
-    config.planner.candidates = (choices & 4) != 0 ? 1 : 10;
+    config.planner.candidates = (choices & 4) != 0 ? 1 : 2;
+    config.planner.sweeps = (choices & 8) != 0 ? 1 : 0;
+    config.planner.backups = 1;
     config.planner.steering = (choices & 16) != 0 ? LH_PLANNER_WEIGHT_MAX : 1.5f;
     config.planner.random_share = (choices & 32) != 0 ? 1.0f : 0.02f;
     config.planner.discount_rate = (choices & 64) != 0 ? LH_DISCOUNT_RATE_MAX : 0.99f;

@@ -26,7 +26,8 @@ lh_planner_config lh_planner_config_default(void) {
         .mechanics = true,
         .steering = 1.5f,
         .unsafe = 3.0f,
-        .random_share = 0.02f,
+        .caution = 1.0f,
+        .random_share = 0.01f,
         .candidates = 5,
         .sweeps = 10,
         .backups = 8,
@@ -43,9 +44,10 @@ lh_error lh_planner_config_validate(const lh_planner_config *config) {
     }
     bool good = lh_within(config->decision_period, LH_DECISION_PERIOD_MIN, LH_DECISION_PERIOD_MAX) &&
                 lh_within(config->steering, 0.0f, LH_PLANNER_WEIGHT_MAX) &&
-                lh_within(config->unsafe, 0.0f, LH_PLANNER_WEIGHT_MAX) && lh_within(config->random_share, 0.0f, 1.0f) &&
-                is_count(config->candidates, 1, LH_CANDIDATES_MAX) && is_count(config->sweeps, 0, LH_SWEEPS_MAX) &&
-                is_count(config->backups, 0, LH_BACKUPS_MAX);
+                lh_within(config->unsafe, 0.0f, LH_PLANNER_WEIGHT_MAX) &&
+                lh_within(config->caution, 0.0f, LH_PLANNER_WEIGHT_MAX) &&
+                lh_within(config->random_share, 0.0f, 1.0f) && is_count(config->candidates, 1, LH_CANDIDATES_MAX) &&
+                is_count(config->sweeps, 0, LH_SWEEPS_MAX) && is_count(config->backups, 0, LH_BACKUPS_MAX);
     return good ? LH_OK : LH_ERROR_PLANNER;
 }
 
@@ -173,7 +175,7 @@ static lh_option choose(lh_planner *planner, const float *angle, lh_course cours
         lh_planning_consider(planner, angle, course, choose_at_random(planner, angle), &any);
         return any;
     }
-    return lh_planning_choose(planner, angle, course);
+    return lh_planning_choose(planner, angle, course, greedy ? planner->config.caution : 0.0f);
 }
 
 void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool learns, bool greedy, lh_choice *choice) {

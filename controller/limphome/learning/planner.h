@@ -44,11 +44,13 @@ typedef struct lh_planner_config {
                               arm. Default true */
     float steering;        /* weight of the steering error, 0 to LH_PLANNER_WEIGHT_MAX; default 1.5 */
     float unsafe;          /* weight of a margin below the safe one, 0 to LH_PLANNER_WEIGHT_MAX; default 3 */
-    float random_share;    /* of actions taken at random while it learns, 0 to 1; default 0.02 */
-    int32_t candidates;    /* actions looked into by a second step, 1 (none) to LH_CANDIDATES_MAX; default 5 */
-    int32_t sweeps;  /* of value iteration over all postures before the first decision, 0 to LH_SWEEPS_MAX; default
-                        10 */
-    int32_t backups; /* nodes backed up in turn by each decision, 0 to LH_BACKUPS_MAX; default 8 */
+    float caution; /* reward withheld from what was never tried where the arm is, when greedy: what is not known cannot
+                      be put right then. 0 to LH_PLANNER_WEIGHT_MAX; default 1 */
+    float random_share; /* of actions taken at random while it learns, 0 to 1; default 0.01 */
+    int32_t candidates; /* actions looked into by a second step, 1 (none) to LH_CANDIDATES_MAX; default 5 */
+    int32_t sweeps;     /* of value iteration over all postures before the first decision, 0 to LH_SWEEPS_MAX; default
+                           10 */
+    int32_t backups;    /* nodes backed up in turn by each decision, 0 to LH_BACKUPS_MAX; default 8 */
 } lh_planner_config;
 
 /* All that a later run needs to go on as if unbroken from where a reset was asked for. */

@@ -10,6 +10,7 @@
 #define SAFE_MARGIN 0.02f  /* S_safe [m] */
 #define LACKING_MAX 3.0f   /* of 1 - S / S_safe */
 #define STEERING_BEND 0.1f /* the penalty is quadratic up to here, linear beyond [rad] */
+#define KNOWN 0.1f         /* weight of samples at which half of the doubt is gone */
 #define JAMMED 0.6f        /* an arm that moves less than this share is taken not to get anywhere */
 
 static float magnitude(float x) {
@@ -202,7 +203,7 @@ static int32_t rank(lh_option *best, int32_t count, int32_t most, const lh_optio
     return count < most ? count + 1 : most;
 }
 
-lh_option lh_planning_choose(lh_planner *planner, const float *angle, lh_course course) {
+lh_option lh_planning_choose(lh_planner *planner, const float *angle, lh_course course, float caution) {
     lh_option *best = planner->best;
     lh_planning_consider(planner, angle, course, lh_planned_still(&planner->planned), &best[0]);
     int32_t count = 0;
@@ -210,6 +211,9 @@ lh_option lh_planning_choose(lh_planner *planner, const float *angle, lh_course 
         if (lh_planned_allows(&planner->planned, angle, a)) {
             lh_option candidate;
             lh_planning_consider(planner, angle, course, a, &candidate);
+            float doubt = caution * KNOWN / (KNOWN + planner->outlook.sums[a].narrow_weight);
+            candidate.reward -= doubt;
+            candidate.value -= doubt;
             count = rank(best, count, planner->config.candidates, &candidate);
         }
     }

@@ -26,7 +26,8 @@ void lh_planning_consider(const lh_planner *planner, const float *angle, lh_cour
                           lh_option *option);
 
 /* The one that promises most of those that are allowed, by a search of two steps; to stand still where none is. The
- * posture looked at is angle[planned.num_joints], and after the call another. */
-lh_option lh_planning_choose(lh_planner *planner, const float *angle, lh_course course);
+ * posture looked at is angle[planned.num_joints], and after the call another. `caution` is the reward withheld from
+ * actions that were never tried there. */
+lh_option lh_planning_choose(lh_planner *planner, const float *angle, lh_course course, float caution);
 
 #endif
