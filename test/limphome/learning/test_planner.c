@@ -99,6 +99,7 @@ START_TEST(every_number_has_a_range) {
                  {offsetof(lh_planner_config, discount_rate), 0.0f, LH_DISCOUNT_RATE_MAX, LH_ERROR_RATE},
                  {offsetof(lh_planner_config, steering), 0.0f, 100.0f, LH_ERROR_PLANNER},
                  {offsetof(lh_planner_config, unsafe), 0.0f, 100.0f, LH_ERROR_PLANNER},
+                 {offsetof(lh_planner_config, caution), 0.0f, 100.0f, LH_ERROR_PLANNER},
                  {offsetof(lh_planner_config, random_share), 0.0f, 1.0f, LH_ERROR_PLANNER}};
     for (int32_t i = 0; i < COUNT(reals); i++) {
         const float good[] = {reals[i].low, reals[i].high};
@@ -334,6 +335,22 @@ START_TEST(greedy_draws_no_random_number) {
 }
 END_TEST
 
+/* Greedy, it keeps to what was tried; while it learns, it does not. */
+START_TEST(greedy_is_cautious) {
+    for (int32_t i = 0; i < 2; i++) {
+        init_quick(&planner, 1);
+        planner.config.random_share = 0.0f;
+        planner.config.caution = 100.0f;
+        const lh_observed observed = observed_at(0.0f, 0.0f, 0.0f, 0.0f, 0.2f, -1.5f);
+        const int32_t tried = 0; /* reverse, while the boom goes down */
+        const float boom = 0.2f;
+        lh_motion_model_insert(&planner.learned.model, tried, &boom, &(lh_motion){.forward = 0.0f}, 0);
+        const int32_t action = step(&planner, &observed, false, i == 0).action;
+        ck_assert_int_eq(action == tried, i == 0);
+    }
+}
+END_TEST
+
 START_TEST(without_progress_chance_helps) {
     init_quick(&planner, 1);
     const lh_random before = planner.learned.random;
@@ -544,6 +561,7 @@ Suite *suite(void) {
     suite_add_tcase(s, t);
     t = tcase_create("choice");
     tcase_add_test(t, greedy_draws_no_random_number);
+    tcase_add_test(t, greedy_is_cautious);
     tcase_add_test(t, without_progress_chance_helps);
     tcase_add_test(t, random_actions_are_allowed_ones);
     tcase_add_test(t, where_nothing_is_allowed_it_stands_still);

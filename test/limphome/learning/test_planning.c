@@ -263,7 +263,7 @@ START_TEST(a_node_without_a_way_out_is_worth_least) {
     /* nor is there an action to take: the joint is near both of its limits */
     const float angle = -0.575f;
     lh_planning_look(&planner, &angle);
-    const lh_option chosen = lh_planning_choose(&planner, &angle, (lh_course){0.0f, 0.0f});
+    const lh_option chosen = lh_planning_choose(&planner, &angle, (lh_course){0.0f, 0.0f}, 0.0f);
     ck_assert_int_eq(chosen.action, lh_planned_still(&planner.planned));
     ck_assert_float_eq(chosen.angle[0], angle);
 }
@@ -302,19 +302,30 @@ START_TEST(an_option_is_worth_its_reward_and_what_follows) {
 }
 END_TEST
 
-/* Plainly: all options sorted by value, and the first of them looked into. */
+/* Plainly: all options sorted by value, and the first of them looked into. Some actions were tried there, once or
+ * twice; with caution the others are worth less. */
 START_TEST(the_choice_is_that_of_a_plain_search) {
     init_usual();
     lh_planning_back_up_in_turn(&planner, planner.learned.values.num_nodes);
+    for (int32_t i = 0; i < 40; i++) {
+        const lh_motion motion = {.forward = -0.001f * (float)i};
+        lh_motion_model_insert(&planner.learned.model, (7 * i) % 30, posture, &motion, i);
+    }
     const int32_t candidates[] = {1, 2, 5, LH_CANDIDATES_MAX};
-    for (int32_t i = 0; i < COUNT(candidates); i++) {
-        planner.config.candidates = candidates[i];
+    for (int32_t i = 0; i < 2 * COUNT(candidates); i++) {
+        const float caution = i < COUNT(candidates) ? 0.0f : 0.7f;
+        const int32_t most_candidates = candidates[i % COUNT(candidates)];
+        planner.config.candidates = most_candidates;
         lh_planning_look(&planner, posture);
         static lh_option options[81];
         int32_t count = 0;
         for (int32_t a = 0; a < 81; a++) {
             if (a != 40) { /* no joint is near a limit */
-                lh_planning_consider(&planner, posture, course, a, &options[count++]);
+                const float doubt = caution * 0.1f / (0.1f + planner.outlook.sums[a].narrow_weight);
+                lh_planning_consider(&planner, posture, course, a, &options[count]);
+                options[count].reward -= doubt;
+                options[count].value -= doubt;
+                count++;
             }
         }
         int32_t best = -1;
@@ -324,11 +335,11 @@ START_TEST(the_choice_is_that_of_a_plain_search) {
             for (int32_t j = 0; j < count; j++) {
                 better += options[j].value > options[k].value || (options[j].value == options[k].value && j < k);
             }
-            if (better >= candidates[i]) {
+            if (better >= most_candidates) {
                 continue;
             }
             double value = options[k].value;
-            if (candidates[i] > 1) {
+            if (most_candidates > 1) {
                 lh_planning_look(&planner, options[k].angle);
                 double further = -1e9;
                 for (int32_t a = 0; a < 81; a++) {
@@ -344,7 +355,7 @@ START_TEST(the_choice_is_that_of_a_plain_search) {
             }
         }
         lh_planning_look(&planner, posture);
-        const lh_option chosen = lh_planning_choose(&planner, posture, course);
+        const lh_option chosen = lh_planning_choose(&planner, posture, course, caution);
         ck_assert_int_eq(chosen.action, options[best].action);
         expect_near(chosen.value, most, 1e-4);
         expect_near(chosen.reward, options[best].reward, 1e-6);
@@ -359,7 +370,7 @@ START_TEST(at_a_limit_only_what_is_allowed_is_chosen) {
     for (int32_t i = 0; i < 2; i++) {
         planner.config.candidates = i == 0 ? 1 : LH_CANDIDATES_MAX;
         lh_planning_look(&planner, at_limits);
-        const lh_option chosen = lh_planning_choose(&planner, at_limits, course);
+        const lh_option chosen = lh_planning_choose(&planner, at_limits, course, 0.0f);
         ck_assert(lh_planned_allows(&planner.planned, at_limits, chosen.action));
     }
 }
