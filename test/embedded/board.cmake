@@ -23,9 +23,9 @@ endforeach()
 add_executable(replay replay.c recording.c)
 add_executable(elementary_bits elementary.c)
 add_executable(count count.c recording.c)
-# instructions of a decision, for speed and for size; a planner's are to leave 95 % of 0.5 s at 216 MHz to others
+# instructions of a decision, Q-learning's for speed and for size; a planner's leave 95 % of 0.5 s at 216 MHz to others
 target_compile_definitions(count PRIVATE Q_LEARNING_LIMIT=$<IF:$<CONFIG:Release>,100000,115000>
-                                         PLANNER_LIMIT=$<IF:$<CONFIG:Release>,5400000,6500000>)
+                                         PLANNER_LIMIT=5400000)
 foreach(program replay elementary_bits count)
   target_link_libraries(${program} PRIVATE limphome_board limphome_warnings)
 endforeach()

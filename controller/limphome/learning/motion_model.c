@@ -168,8 +168,10 @@ bool lh_motion_model_fits(const lh_motion_model *saved, const lh_motion_model *m
     if (!is_of_same_kind(saved, model) || saved->num_samples < 0 || saved->num_samples > LH_MAX_SAMPLES) {
         return false;
     }
-    for (int32_t i = 0; i < saved->num_samples; i++) {
-        if (saved->action[i] < 0 || saved->action[i] >= model->num_actions || saved->count[i] < 1 ||
+    /* those that are not used, too, so that each is in range by itself */
+    for (int32_t i = 0; i < LH_MAX_SAMPLES; i++) {
+        int16_t least_count = i < saved->num_samples ? 1 : 0;
+        if (saved->action[i] < 0 || saved->action[i] >= model->num_actions || saved->count[i] < least_count ||
             saved->count[i] > LH_SAMPLE_COUNT_MAX) {
             return false;
         }

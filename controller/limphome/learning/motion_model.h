@@ -64,7 +64,8 @@ void lh_motion_model_gather(const lh_motion_model *model, const float *angle, lh
 /* The motion of an action that was expected to be *motion, by the sums of that action. */
 void lh_motion_model_correct(const lh_motion_model *model, const lh_motion_sums *sums, lh_motion *motion);
 
-/* Whether `saved` is of the actions and postures of `model` and its samples are in range. */
+/* Whether `saved` is of the actions and postures of `model` and its samples, also those that are not used, are in
+ * range. */
 bool lh_motion_model_fits(const lh_motion_model *saved, const lh_motion_model *model);
 
 #ifdef __cplusplus

@@ -317,6 +317,9 @@ START_TEST(samples_out_of_range_do_not_fit) {
         }
     }
     other = model;
+    other.action[LH_MAX_SAMPLES - 1] = ACTIONS; /* not used */
+    ck_assert(!lh_motion_model_fits(&other, &model));
+    other = model;
     other.posture[0][0] = -512;
     other.posture[0][1] = 32000;
     other.action[0] = 0;
