@@ -35,7 +35,7 @@ int main(void) {
     if (lh_controller_init(&controller, &config, &robot, &controlled) != LH_OK) {
         return 1;
     }
-    //@ loop unroll 0; loop widen_hints controller.task.episode.steps, 199;
+    //@ loop unroll 0; loop widen_hints controller.task.episode.steps, 1999;
     while (Frama_C_interval(0, 1)) {
         switch (Frama_C_interval(0, 2)) {
             case 0:

@@ -44,7 +44,7 @@ int main(void) {
     }
     choose_path(&controller.task.config.path);
     /* not unrolled, as it has no end; a bound for EVA to try, below the limit of steps */
-    //@ loop unroll 0; loop widen_hints controller.task.episode.steps, 199;
+    //@ loop unroll 0; loop widen_hints controller.task.episode.steps, 1999;
     while (Frama_C_interval(0, 1)) {
         switch (Frama_C_interval(0, 2)) {
             case 0:

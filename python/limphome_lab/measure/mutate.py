@@ -26,7 +26,7 @@ CHANGES = [
     (r"\+= ", "-= "), (r"\b0\.5f", "0.6f"), (r"\b1\.0f", "1.1f"), (r"\b0\.0f", "0.1f"), (r"= true;", "= false;"),
 ]  # fmt: skip
 LIBRARY = ROOT / "controller/limphome"
-SMALL = {"test_capacity": "-DLH_MAX_ACTIONS=81"}  # tests of a library with other capacities
+SMALL = {"test_capacity": "-DLH_MAX_ACTIONS=81 -DLH_MAX_PLANNED=4"}  # tests of a library with other capacities
 OUTCOMES = ["noticed", "too slow", "not compiled", "same code", "SURVIVED"]
 RULES = """
 rule compile
@@ -62,12 +62,16 @@ def stem_below(file, folder):
     return str(file.relative_to(folder).with_suffix(""))
 
 
+def build_folder(more):
+    return "build" + more.replace(" ", "")
+
+
 def build_rules(sources, tests):
     """What ninja must know: the library from its sources and its tests {name: source} with default capacities, and
     those of SMALL. Sources are named by path without the ending."""
     text = RULES
     for more in ["", *SMALL.values()]:
-        folder = f"build{more}"
+        folder = build_folder(more)
         for stem in [*sources, "test/crawler", "test/runner"]:
             text += f"build {folder}/{stem}.o: compile {stem}.c\n  more = {more}\n"
         text += f"build {folder}/library.so: library {' '.join(f'{folder}/{s}.o' for s in sources)}\n"
@@ -88,7 +92,7 @@ class Job:
 
     def run(self, test):
         """Outcome of one test program, None if it passes."""
-        program = f"build{SMALL.get(test, '')}/{test}"
+        program = f"{build_folder(SMALL.get(test, ''))}/{test}"
         silent = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
         if subprocess.run(["ninja", "-C", self.folder, program], **silent).returncode:
             return "not compiled"

@@ -199,6 +199,17 @@ START_TEST(near_measurements_of_an_action_become_one) {
 }
 END_TEST
 
+START_TEST(measurements_are_rounded_to_the_nearest_unit) {
+    const double units[] = {0.45, 0.55, -0.45, -0.55, 3.4, -3.6};
+    const int32_t expected[] = {0, 1, 0, -1, 3, -4};
+    init_usual();
+    for (int32_t i = 0; i < COUNT(units); i++) {
+        insert_at(2.0 * i, 1, (float)(units[i] / 16384.0), i);
+        ck_assert_int_eq(model.motion[0][i], expected[i]);
+    }
+}
+END_TEST
+
 START_TEST(a_sample_does_not_stiffen) {
     init_usual();
     for (int32_t i = 0; i < 100; i++) {
@@ -338,6 +349,7 @@ Suite *suite(void) {
     suite_add_tcase(s, t);
     t = tcase_create("samples");
     tcase_add_test(t, near_measurements_of_an_action_become_one);
+    tcase_add_test(t, measurements_are_rounded_to_the_nearest_unit);
     tcase_add_test(t, a_sample_does_not_stiffen);
     tcase_add_test(t, the_one_updated_longest_ago_gives_way);
     tcase_add_test(t, measurements_out_of_range_are_limited);
