@@ -7,7 +7,14 @@
 namespace limphome {
 
 // What a stream is for; streams for different purposes are independent of each other.
-enum class Purpose { rough_ground = 1, patches = 2, randomisation = 3, sensor_bias = 4, sensor_noise = 5, shooting = 6 };
+enum class Purpose {
+    rough_ground = 1,
+    patches = 2,
+    randomisation = 3,
+    sensor_bias = 4,
+    sensor_noise = 5,
+    shooting = 6
+};
 
 // Depends on nothing but what it is made from, so that a resumed run draws what an unbroken one draws.
 class RandomStream {
