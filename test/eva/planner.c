@@ -1,5 +1,5 @@
-/* What Frama-C's EVA analyses of a planner: any number of decisions, as step.c has them, with a crawler and a joint of the
- * arm under control, and one node backed up in turn. */
+/* What Frama-C's EVA analyses of a planner: any number of decisions, as step.c has them, with a crawler and a joint of
+ * the arm under control, and one node backed up in turn. */
 #include <__fc_builtin.h>
 
 #include "crawler.h"

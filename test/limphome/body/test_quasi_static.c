@@ -11,9 +11,9 @@ static const float travel[LH_MAX_ACTUATORS] = {0.15f, 0.15f, 0.15f, 0.15f, 0.15f
 enum { LEFT, RIGHT, SWING, BOOM, ARM, ACTUATORS };
 
 #define FRICTION 0.7f
-/* How near the motion comes to the one that loses the least power, in longest travels: on the crawlers alone; on a slope,
- * where gravity makes the most of friction that is soft; and where the tip carries, which as a rule sticks where it was
- * thrust, so that friction there bends sharply. */
+/* How near the motion comes to the one that loses the least power, in longest travels: on the crawlers alone; on a
+ * slope, where gravity makes the most of friction that is soft; and where the tip carries, which as a rule sticks where
+ * it was thrust, so that friction there bends sharply. */
 #define ACCURACY_ON_CRAWLERS 0.004
 #define ACCURACY_ON_SLOPES 0.06
 #define ACCURACY_BRACED 0.15
