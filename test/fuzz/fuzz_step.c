@@ -30,8 +30,9 @@ static lh_learner_config varied_planner(const lh_learner_config *standard, uint8
     lh_learner_config config = *standard;
     config.kind = (choices & 1) != 0 ? LH_PLANNER : LH_Q_LEARNING;
     config.planner.mechanics = (choices & 2) != 0;
+    config.planner.caution = (choices & 8) != 0 ? LH_PLANNER_WEIGHT_MAX : 1.0f;
     config.planner.candidates = (choices & 4) != 0 ? 1 : 2;
-    config.planner.sweeps = (choices & 8) != 0 ? 1 : 0;
+    config.planner.sweeps = 0; /* slow, and no more than what steps do */
     config.planner.backups = 1;
     config.planner.steering = (choices & 16) != 0 ? LH_PLANNER_WEIGHT_MAX : 1.5f;
     config.planner.random_share = (choices & 32) != 0 ? 1.0f : 0.02f;

@@ -170,7 +170,10 @@ bool lh_motion_model_fits(const lh_motion_model *saved, const lh_motion_model *m
     }
     /* those that are not used, too, so that each is in range by itself */
     for (int32_t i = 0; i < LH_MAX_SAMPLES; i++) {
-        int32_t least_count = i < saved->num_samples ? 1 : 0;
+        int32_t least_count = 0;
+        if (i < saved->num_samples) {
+            least_count = 1;
+        }
         if (saved->action[i] < 0 || saved->action[i] >= model->num_actions || saved->count[i] < least_count ||
             saved->count[i] > LH_SAMPLE_COUNT_MAX) {
             return false;
