@@ -68,7 +68,7 @@ def episode_states(path, wanted):
             since_last_episode = since_last_episode[-1:]
     if -1 in wanted and last:
         found[-1] = last
-    return {number: (episode, _states_of(episode, states)) for number, (episode, states) in found.items()}
+    return {number: (episode, states_of(episode, states)) for number, (episode, states) in found.items()}
 
 
 def last_session(path):
@@ -86,7 +86,8 @@ def last_session(path):
     return episodes[last], [state for _, state in sorted(states[last].items())]
 
 
-def _states_of(episode, encoded):
+def states_of(episode, encoded):
+    """The robot_state_t of an episode_t among encoded ones, in order and each once."""
     states = {}
     for data in encoded:
         state = robot_state_t.decode(data)

@@ -11,6 +11,7 @@ from limphome_lab.paths import ROOT
 
 SCRIPTS = (
     "bench",
+    "diagnose",
     "evaluate",
     "launch",
     "plot",

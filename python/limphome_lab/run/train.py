@@ -8,6 +8,7 @@ from limphome_lab.ending import with_exit_code
 from limphome_lab.run.manifest import Part, begin_manifest, write_manifest
 from limphome_lab.run.pair import Pair, PairFailed
 from limphome_lab.run.processes import Interrupted, raise_on_signals
+from limphome_lab.show import diagnose
 from limphome_lab.show.progress import Progress, clock
 
 
@@ -93,6 +94,8 @@ def main():
         draw(folder)
     if code == 0:
         print(f"done in {clock(part.wall_time_s)}: {paths.shown(folder.path)}", file=sys.stderr)
+        if trouble := diagnose.in_a_line(folder):
+            print(trouble, file=sys.stderr)
     return code
 
 

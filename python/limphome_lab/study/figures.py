@@ -3,8 +3,8 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
+from limphome_lab.show import learned
 from limphome_lab.show.figures import style
-from limphome_lab.study import learned
 
 COLOURS = {"test": style.BLUE, "tuning": style.ORANGE}
 SPREAD = 0.3  # of the seeds of a case, so that equal ones can be told apart

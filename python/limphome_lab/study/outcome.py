@@ -4,8 +4,8 @@ import json
 from dataclasses import dataclass, field
 
 from limphome_lab import runfolder
+from limphome_lab.show import learned
 from limphome_lab.show.summary import summarise
-from limphome_lab.study import learned
 from limphome_lab.study.plan import is_asked_for
 
 LOG_TAIL = 3  # lines that tell why a run failed

@@ -4,9 +4,10 @@ import math
 import statistics
 
 from limphome_lab import command, paths
+from limphome_lab.show import learned
 from limphome_lab.show.figures import style
 from limphome_lab.show.progress import clock
-from limphome_lab.study import figures, intervals, learned, outcome
+from limphome_lab.study import figures, intervals, outcome
 from limphome_lab.study.document import Figure, Heading, Paragraph, Table, html, markdown
 from limphome_lab.study.intervals import NEVER
 

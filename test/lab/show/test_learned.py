@@ -5,7 +5,7 @@ import math
 import pytest
 
 from limphome_lab.runfolder import Episode
-from limphome_lab.study import learned
+from limphome_lab.show import learned
 
 
 def row(outcome="goal", duration_s=7.0, lateral_error_m=0.02, heading_change_rad=0.01):
