@@ -14,7 +14,7 @@ MOST = 0.5  # share of the episodes from which on they are said to do something
 CIRCLING_NET = 0.25  # of the way travelled, at most, between start and end of an episode that circles
 CIRCLING_TURNED_RAD = 2 * math.pi  # at least: a full turn, those to the left less those to the right
 STANDING_M = 0.10  # farthest from its start in an episode that stands; sensors err by less
-EXPLORING_ACTIONS = 2.0  # that are chosen from, in effect; below, a best one is nearly certain
+EXPLORING_ACTIONS = 3.0  # that are chosen from, in effect; below, little but ties between best ones is left to chance
 SATURATED_SHARE = 0.10  # of the drives' time steps at the torque limit; 0.01 where it drives well
 TUMBLE_SHARE = 0.10  # of the episodes
 
@@ -166,9 +166,9 @@ def _short_of_the_goal(name, evidence):
     goals = round(evidence.share("goal") * count)
     numbers = {quantity: evidence.median(quantity) for quantity in ("way_m", "farthest_m", "goal_distance_m")}
     text = (
-        f"{goals or 'no'} goal{'s' * (goals != 1)} in {count} episodes; at the median {numbers['way_m']:.1f} m of way lead "
-        f"no farther than {numbers['farthest_m']:.2f} m from the start; the goal line is {numbers['goal_distance_m']:g} m "
-        "from there"
+        f"{goals or 'no'} goal{'s' * (goals != 1)} in {count} episodes; at the median {numbers['way_m']:.1f} m of way "
+        f"lead no farther than {numbers['farthest_m']:.2f} m from the start; the goal line is "
+        f"{numbers['goal_distance_m']:g} m from there"
     )
     advice = [f"learning.episodes above {evidence.settings['learning']['episodes']}"]
     if evidence.plans:

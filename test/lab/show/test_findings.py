@@ -109,7 +109,7 @@ def test_exploration_ended():
     found = findings.exploration_ended(evidence(TO_AND_FRO, num_actions=1.2))
     assert found.numbers == {"temperature": 0.25, "num_actions": 1.2}
     assert "exploration.temperature_floor above 0.25" in found.advice
-    assert findings.exploration_ended(evidence(TO_AND_FRO, num_actions=2)) is None
+    assert findings.exploration_ended(evidence(TO_AND_FRO, num_actions=3)) is None
 
 
 def test_saturated_drives():
