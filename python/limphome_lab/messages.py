@@ -30,10 +30,12 @@ TYPES = {
 OUTCOMES = {episode_t.GOAL: "goal", episode_t.TUMBLE: "tumble", episode_t.TIMEOUT: "timeout"}
 
 
-def read_log(path):
-    """Yields (channel, encoded message) of a recording in the order they were written."""
+def read_log(path, begin=0):
+    """Yields (channel, encoded message) of a recording in the order they were written, from byte `begin` on."""
     log = lcm.EventLog(str(path), "r")
     try:
+        if begin > 0:
+            log.seek(begin)
         for event in log:
             yield event.channel, event.data
     finally:

@@ -24,23 +24,13 @@ def reaches_its_goals(episodes):
 
 
 def read_evidence(folder, episodes):
-    """Evidence of the last episodes of a run, in one pass over its recording."""
+    """Evidence of the last episodes of a run."""
     # lcm is there once all is set up, and --help before
-    from limphome_lab.messages import DECISION, EPISODE, STATE, STATUS, TYPES, read_log, states_of
+    from limphome_lab.messages import DECISION, TYPES, states_of
 
-    ended = deque(maxlen=learned.WINDOW)  # (episode_t, states, decisions), the latter two encoded
-    statuses, states, decisions = [], [], []
-    for channel, data in read_log(folder.messages):
-        if channel == STATE:
-            states.append(data)
-        elif channel == DECISION:
-            decisions.append(data)
-        elif channel == STATUS:
-            statuses.append(TYPES[STATUS].decode(data))
-        elif channel == EPISODE:
-            ended.append((TYPES[EPISODE].decode(data), states, decisions))
-            # the state in which an episode ended is the one in which the next may start
-            states, decisions = states[-1:], []
+    ended, statuses = _recorded_end(folder, episodes)
+    if not ended:
+        raise runfolder.InputError(f"{folder.messages}: holds no episode that has ended")
     settings = {section: dict(keys) for section, keys in folder.settings().items()}
     end = episodes[-learned.WINDOW :]
     of_episode = [(episode, states_of(episode, encoded)) for episode, encoded, _ in ended]
@@ -57,6 +47,39 @@ def read_evidence(folder, episodes):
             of_episode[-1][1][-1].num_actuators,
         )
     return evidence
+
+
+def _recorded_end(folder, episodes):
+    """What _recorded gives of the last episodes, for which the end of a long recording is enough."""
+    size = folder.messages.stat().st_size
+    steps = [episode.steps for episode in episodes]
+    # twice what the decisions tell, as other messages lie unevenly; one episode more, whose last state is needed
+    length = round(2 * size * sum(steps[-learned.WINDOW - 1 :]) / sum(steps))
+    ended, statuses = _recorded(folder.messages, max(0, size - length))
+    if length < size and len(ended) <= learned.WINDOW:
+        ended, statuses = _recorded(folder.messages, 0)
+    return list(ended)[-learned.WINDOW :], statuses
+
+
+def _recorded(path, begin):
+    """([(episode_t, states, decisions)], [status_t]) from byte `begin` of a recording on: of one episode more than the
+    last ones, the first of which may have begun before, with states and decisions encoded."""
+    from limphome_lab.messages import DECISION, EPISODE, STATE, STATUS, TYPES, read_log
+
+    ended = deque(maxlen=learned.WINDOW + 1)
+    statuses, states, decisions = [], [], []
+    for channel, data in read_log(path, begin):
+        if channel == STATE:
+            states.append(data)
+        elif channel == DECISION:
+            decisions.append(data)
+        elif channel == STATUS:
+            statuses.append(TYPES[STATUS].decode(data))
+        elif channel == EPISODE:
+            ended.append((TYPES[EPISODE].decode(data), states, decisions))
+            # the state in which an episode ended is the one in which the next may start
+            states, decisions = states[-1:], []
+    return ended, statuses
 
 
 def _track(episode, states, period):

@@ -8,13 +8,13 @@ import statistics
 from dataclasses import dataclass
 from itertools import pairwise
 
-from limphome_lab.show.learned import WINDOW
+from limphome_lab.show.learned import GOALS, WINDOW
 
 MOST = 0.5  # share of the episodes from which on they are said to do something
 CIRCLING_NET = 0.25  # of the way travelled, at most, between start and end of an episode that circles
 CIRCLING_TURNED_RAD = 2 * math.pi  # at least: a full turn, those to the left less those to the right
 STANDING_M = 0.10  # farthest from its start in an episode that stands; sensors err by less
-EXPLORING_ACTIONS = 2.0  # that are chosen from, in effect; below, a best one is nearly certain
+EXPLORING_ACTIONS = 3.0  # that are chosen from, in effect; below, little but ties between best ones is left to chance
 SATURATED_SHARE = 0.10  # of the drives' time steps at the torque limit; 0.01 where it drives well
 TUMBLE_SHARE = 0.10  # of the episodes
 
@@ -154,22 +154,28 @@ def standing(evidence):
 
 
 def never_reaching(evidence):
-    """It moves, but of WINDOW episodes none reaches the goal, although it is not too far."""
-    explained = standing(evidence) or unreachable_goal(evidence)
+    """It moves, but of WINDOW episodes none reaches the goal, although it is not too far and it does not tumble."""
+    explained = standing(evidence) or unreachable_goal(evidence) or evidence.share("tumble") >= MOST
     if len(evidence.episodes) < WINDOW or evidence.share("goal") > 0 or explained:
         return None
-    numbers = {name: evidence.median(name) for name in ("way_m", "farthest_m", "goal_distance_m")}
-    numbers["episodes"] = len(evidence.episodes)
+    return _short_of_the_goal("never reaching", evidence)
+
+
+def _short_of_the_goal(name, evidence):
+    count = len(evidence.episodes)
+    goals = round(evidence.share("goal") * count)
+    numbers = {quantity: evidence.median(quantity) for quantity in ("way_m", "farthest_m", "goal_distance_m")}
     text = (
-        f"no goal in {numbers['episodes']} episodes; at the median {numbers['way_m']:.1f} m of way lead no farther "
-        f"than {numbers['farthest_m']:.2f} m from the start, of {numbers['goal_distance_m']:g} m to the goal line"
+        f"{goals or 'no'} goal{'s' * (goals != 1)} in {count} episodes; at the median {numbers['way_m']:.1f} m of way "
+        f"lead no farther than {numbers['farthest_m']:.2f} m from the start; the goal line is "
+        f"{numbers['goal_distance_m']:g} m from there"
     )
     advice = [f"learning.episodes above {evidence.settings['learning']['episodes']}"]
     if evidence.plans:
         advice.append(f"planner.random_share above {evidence.setting('planner', 'random_share'):g}")
     else:
         advice += _better_q_learning(evidence)
-    return Finding("never reaching", text, numbers, advice)
+    return Finding(name, text, numbers | {"episodes": count, "goals": goals}, advice)
 
 
 def exploration_ended(evidence):
@@ -236,8 +242,11 @@ FINDINGS = (circling, standing, never_reaching, exploration_ended, saturated_dri
 
 
 def findings(evidence):
-    """Those that hold, in the order of FINDINGS."""
-    return [found for find in FINDINGS if (found := find(evidence))]
+    """Those that hold, in the order of FINDINGS. Where goals are missed and none of them tells why, that is one."""
+    found = [holds for find in FINDINGS if (holds := find(evidence))]
+    if not found and evidence.share("goal") < GOALS / WINDOW:
+        return [_short_of_the_goal("seldom reaching", evidence)]
+    return found
 
 
 def _better_q_learning(evidence):

@@ -145,3 +145,35 @@ def test_goals_of_the_last_20(goals, count, reaches):
         diagnose.reaches_its_goals(rows(5) * (count // 20) + rows(goals, outcome="goal") + rows(count - goals))
         is reaches
     )
+
+
+def test_end_of_a_long_recording_tells_the_same_as_all_of_it(tmp_path, monkeypatch):
+    folder = run_folder(tmp_path, rows(100), pace=0.1)
+    begins = []
+    recorded = diagnose._recorded
+    monkeypatch.setattr(diagnose, "_recorded", lambda path, begin: begins.append(begin) or recorded(path, begin))
+    diagnosis = diagnose.diagnose(folder)
+    assert len(begins) == 1 and begins[0] > folder.messages.stat().st_size / 2
+    ended, _ = recorded(folder.messages, 0)
+    found = {finding["name"]: finding["numbers"] for finding in diagnosis["findings"]}
+    assert found["a goal that cannot be reached"]["best_speed_m_s"] == pytest.approx(0.2)
+    assert [len(states) for _, states, _ in ended] == [2 * STEPS + 1] * 21
+
+
+def test_recording_whose_end_holds_too_little_is_read_from_its_beginning(tmp_path):
+    folder = run_folder(tmp_path, rows(100))
+    waited = tmp_path / "waited.lcmlog"
+    log = lcm.EventLog(str(waited), "w")
+    for time in range(10_000):  # a plant that waited long
+        log.write_event(time, STATUS, plant_status(200.0, 100_000).encode())
+    log.close()
+    folder.messages.write_bytes(folder.messages.read_bytes() + waited.read_bytes())
+    ended, _ = diagnose._recorded_end(folder, folder.read_episodes())
+    assert [episode.episode for episode, _, _ in ended] == list(range(81, 101))
+
+
+def test_recording_without_an_episode_is_refused(tmp_path):
+    folder = run_folder(tmp_path, rows(3))
+    folder.messages.write_bytes(b"")
+    with pytest.raises(diagnose.runfolder.InputError, match="holds no episode"):
+        diagnose.diagnose(folder)

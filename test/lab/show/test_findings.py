@@ -87,9 +87,21 @@ def test_never_reaching(settings):
 
 
 def test_never_is_20_episodes_without_a_single_goal():
-    assert names(evidence(TO_AND_FRO, count=19)) == []
+    assert names(evidence(TO_AND_FRO, count=19)) == ["seldom reaching"]
     seen = evidence(TO_AND_FRO)
     seen.episodes = [row("goal")] + [row("timeout")] * 19
+    assert names(seen) == ["seldom reaching"]
+    assert "1 goal in 20 episodes" in findings.findings(seen)[0].text
+
+
+def test_seldom_is_told_where_nothing_else_tells_why():
+    seen = evidence(STRAIGHT)
+    seen.episodes = [row("goal")] * 18 + [row("timeout")] * 2
+    assert names(seen) == ["seldom reaching"]
+    seen.saturated_share = 0.3
+    assert names(seen) == ["saturated drives"]
+    seen = evidence(STRAIGHT)
+    seen.episodes = [row("goal")] * 19 + [row("timeout")]
     assert names(seen) == []
 
 
@@ -97,7 +109,7 @@ def test_exploration_ended():
     found = findings.exploration_ended(evidence(TO_AND_FRO, num_actions=1.2))
     assert found.numbers == {"temperature": 0.25, "num_actions": 1.2}
     assert "exploration.temperature_floor above 0.25" in found.advice
-    assert findings.exploration_ended(evidence(TO_AND_FRO, num_actions=2)) is None
+    assert findings.exploration_ended(evidence(TO_AND_FRO, num_actions=3)) is None
 
 
 def test_saturated_drives():
@@ -115,6 +127,10 @@ def test_tumbling(settings):
     assert ("planner.unsafe above 3" in found.advice) == (settings is PLANNER)
     seen.episodes = [row("tumble")] + [row("goal")] * 19
     assert findings.tumbling(seen) is None
+
+
+def test_what_tumbles_is_not_said_to_never_reach():
+    assert names(evidence(TO_AND_FRO, "tumble")) == ["tumbling"]
 
 
 def test_goal_that_cannot_be_reached():
