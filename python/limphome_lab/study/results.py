@@ -92,7 +92,7 @@ def row(run):
     last = summarise(run.episodes[-stretch(run.episodes) :])
     return (
         run.seed,
-        "never" if learned is None else learned,
+        learned if learned is not None else "never" if len(run.episodes) >= WINDOW else "",
         "" if learned is None else sum(episode.steps for episode in run.episodes[:learned]),
         f"{100 * last['goal_share']:.0f}",
         f"{last['median_duration_s']:.1f}",
@@ -110,6 +110,8 @@ def span(values, form):
 
 def summary(runs):
     """How many have learned, and when."""
+    if all(len(run.episodes) < WINDOW for run in runs):
+        return f"**{span([len(run.episodes) for run in runs], str)} episodes are too few to have learned by.**"
     learned = [n for n in (learned_after(run.episodes) for run in runs) if n is not None]
     text = f"**Learned on {len(learned)} of {len(runs)} seeds"
     if learned:

@@ -77,6 +77,14 @@ def test_too_few_episodes_to_have_learned():
     assert results.learned_after([]) is None
 
 
+def test_run_that_is_too_short_to_have_learned_is_not_told_to_have_failed(tmp_path):
+    run = make_run(tmp_path / "run")
+    rows = (run / "episodes.csv").read_text().splitlines()
+    (run / "episodes.csv").write_text("\n".join(rows[:20]) + "\n")
+    text = results.document([results.Run(run)])
+    assert "**19 episodes are too few to have learned by.**" in text and "never" not in text
+
+
 def test_runs_are_grouped_by_experiment_and_ordered_by_seed(tmp_path):
     runs = [make_run(tmp_path / "b", 2), make_run(tmp_path / "a", 1), make_run(tmp_path / "c", 1, config="other")]
     right = make_run(tmp_path / "d", 1)
