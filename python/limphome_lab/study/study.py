@@ -51,7 +51,7 @@ def lock(folder):
 def snakemake(args, out):
     """Words that start Snakemake. What is done is told by the folders that are there, and by nothing else."""
     words = [sys.executable, "-m", "snakemake", "--snakefile", SNAKEFILE, "--directory", out]
-    words += ["--keep-going", "--rerun-incomplete", "--nolock", "--rerun-triggers", "input"]
+    words += ["--keep-going", "--ignore-incomplete", "--nolock", "--rerun-triggers", "input"]
     words += ["--cores", str(args.cores or len(os.sched_getaffinity(0)))]
     if args.profile:
         words += ["--profile", Path(args.profile).absolute()]
