@@ -225,7 +225,8 @@ END_TEST
 START_TEST(the_one_updated_longest_ago_gives_way) {
     init_usual();
     for (int32_t i = 0; i < LH_MAX_SAMPLES; i++) {
-        const double x[JOINTS] = {i % 32, i / 32, 0.0};
+        const int32_t row = i / 32;
+        const double x[JOINTS] = {i % 32, row, 0.0};
         float angle[JOINTS];
         posture_at(x, angle);
         lh_motion_model_insert(&model, i % ACTIONS, angle, &(lh_motion){.forward = 0.0f}, i);
@@ -238,7 +239,7 @@ START_TEST(the_one_updated_longest_ago_gives_way) {
     ck_assert_int_eq(model.action[1], 4);
     ck_assert_int_eq(model.count[1], 1);
     ck_assert_int_eq(model.updated[1], LH_MAX_SAMPLES + 1);
-    ck_assert_int_eq(model.posture[0][1], 60 * 512);
+    ck_assert_int_eq(model.posture[0][1], 30720); /* 60 widths */
     ck_assert_int_eq(model.posture[1][1], 0);
     expect_near(model.motion[0][1] * MOTION_UNIT, 0.5, 1e-4);
 }

@@ -121,7 +121,9 @@ START_TEST(the_planned_joints_among_all) {
     const float set[LH_PLANNED_JOINTS] = {1.0f, 2.0f, 3.0f};
     lh_planned_set_angles(&planned, set, joint_angle);
     const float expected[LH_MAX_ACTUATORS] = {10.0f, 11.0f, 1.0f, 2.0f, 3.0f, 15.0f, 16.0f, 17.0f};
-    ck_assert_mem_eq(joint_angle, expected, sizeof expected);
+    for (int32_t k = 0; k < LH_MAX_ACTUATORS; k++) {
+        ck_assert(joint_angle[k] == expected[k]);
+    }
 }
 END_TEST
 

@@ -151,7 +151,8 @@ static void measure(void) {
         const float boom = -0.6f + 0.5f * (float)i;
         for (int32_t a = 0; a < 9; a++) {
             const float drive = (float)(a % 3 - 1);
-            const float lift = (float)(a / 3 - 1);
+            const int32_t row = a / 3;
+            const float lift = (float)(row - 1);
             const lh_motion motion = {.forward = 0.1f * drive - 0.02f * lift,
                                       .sideways = 0.01f * drive * (float)i,
                                       .turn = 0.06f * drive * (boom - 0.2f) + 0.03f * lift,
