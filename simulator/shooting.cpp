@@ -44,7 +44,7 @@ using Sequence = std::array<Action, horizon>;
 // What a sequence comes to [m]: the way along the line less what it strays from the line and turns, on average and at
 // its end.
 constexpr double cost_of_lateral = 1.0;
-constexpr double cost_of_turn = 1.0;  // [m/rad]
+constexpr double cost_of_turn = 0.5;  // [m/rad]
 constexpr double cost_of_fall = 100;
 
 double turned(double from, double to) {
