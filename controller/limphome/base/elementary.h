@@ -6,6 +6,7 @@
 
 #include <float.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -44,6 +45,17 @@ static inline float lh_clip(float x, float low, float high) {
         return low;
     }
     return x > high ? high : x;
+}
+
+/* |x|. */
+static inline float lh_magnitude(float x) {
+    return x < 0.0f ? -x : x;
+}
+
+/* The nearest whole number of 16 bits, halves away from 0; beyond +-32767, and for NaN, the end of that range. */
+static inline int16_t lh_round_16(float x) {
+    x = lh_clip(x, -32767.0f, 32767.0f);
+    return (int16_t)(x < 0.0f ? x - 0.5f : x + 0.5f);
 }
 
 /* False for NaN and infinity. */

@@ -16,11 +16,6 @@
 
 _Static_assert(LH_MAX_SAMPLES % BLOCK == 0, "a block lies within the samples");
 
-static int16_t nearest(float x) {
-    x = lh_clip(x, -32767.0f, 32767.0f);
-    return (int16_t)(x < 0.0f ? x - 0.5f : x + 0.5f);
-}
-
 void lh_motion_model_init(lh_motion_model *model, int32_t num_actions, int32_t num_joints, const float *low,
                           const float *width, float prior_weight) {
     memset(model, 0, sizeof *model);
@@ -38,7 +33,7 @@ static void coordinates(const lh_motion_model *model, const float *angle, int16_
         posture[k] = 0;
         if (k < model->num_joints) {
             float scaled = (angle[k] - model->low[k]) / model->width[k] * UNITS_PER_WIDTH;
-            posture[k] = nearest(lh_clip(scaled, -UNITS_PER_WIDTH, COORDINATE_MAX));
+            posture[k] = lh_round_16(lh_clip(scaled, -UNITS_PER_WIDTH, COORDINATE_MAX));
         }
     }
 }
@@ -82,7 +77,7 @@ static int32_t place_for_new(lh_motion_model *model) {
 }
 
 static int16_t towards(int16_t from, int16_t to, float share) {
-    return nearest((float)from + share * (float)(to - from));
+    return lh_round_16((float)from + share * (float)(to - from));
 }
 
 void lh_motion_model_insert(lh_motion_model *model, int32_t action, const float *angle, const lh_motion *difference,
@@ -103,7 +98,7 @@ void lh_motion_model_insert(lh_motion_model *model, int32_t action, const float 
         model->posture[k][place] = towards(model->posture[k][place], posture[k], share);
     }
     for (int32_t k = 0; k < LH_MOTION_PARTS; k++) {
-        int16_t part = nearest(lh_clip(parts[k], -1.99f, 1.99f) * MOTION_UNITS);
+        int16_t part = lh_round_16(lh_clip(parts[k], -1.99f, 1.99f) * MOTION_UNITS);
         model->motion[k][place] = towards(model->motion[k][place], part, share);
     }
     if (model->count[place] < LH_SAMPLE_COUNT_MAX) {

@@ -94,13 +94,12 @@ static float share_moved(const lh_planner *planner, const float *angle) {
     float achieved = 0.0f;
     for (int32_t k = 0; k < planned->num_joints; k++) {
         float from = planner->angle[k];
-        float to = goal[k] < planned->low[k] ? planned->low[k] : goal[k];
-        to = to > planned->high[k] ? planned->high[k] : to;
-        commanded += to > from ? to - from : from - to;
+        float to = lh_clip(goal[k], planned->low[k], planned->high[k]);
+        commanded += lh_magnitude(to - from);
         achieved += to > from ? angle[k] - from : (to < from ? from - angle[k] : 0.0f);
     }
     float share = commanded > LEAST_COMMAND ? achieved / commanded : 1.0f;
-    return share < 0.0f ? 0.0f : (share > 1.0f ? 1.0f : share);
+    return lh_clip(share, 0.0f, 1.0f);
 }
 
 /* Takes in by how much the action under way did something else than mechanics said. */

@@ -13,17 +13,13 @@
 #define KNOWN 0.1f         /* weight of samples at which half of the doubt is gone */
 #define JAMMED 0.6f        /* an arm that moves less than this share is taken not to get anywhere */
 
-static float magnitude(float x) {
-    return x < 0.0f ? -x : x;
-}
-
 float lh_course_steering(lh_course course) {
     return course.heading + LH_STEERING_GAIN * course.lateral;
 }
 
 /* Penalty for a steering error. */
 static float steering_cost(const lh_planner *planner, float error) {
-    float size = magnitude(error);
+    float size = lh_magnitude(error);
     float bent = size < STEERING_BEND ? size * size / STEERING_BEND : 2.0f * size - STEERING_BEND;
     return planner->config.steering * bent;
 }
@@ -107,7 +103,7 @@ static float advance(const lh_planner *planner, const lh_motion *motion, float s
     course->lateral += across + half * along;
     course->heading += motion->turn;
     const lh_reward_config *reward = &planner->task.reward;
-    return reward->forward * (along - half * across) - reward->sideways * magnitude(motion->sideways) -
+    return reward->forward * (along - half * across) - reward->sideways * lh_magnitude(motion->sideways) -
            steering_cost(planner, lh_course_steering(*course));
 }
 

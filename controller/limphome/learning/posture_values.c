@@ -174,17 +174,12 @@ float lh_posture_node_value(const lh_posture_values *values, int32_t node, int32
     return (low + share * ((float)value[k + 1] - low)) * (1.0f / VALUE_UNITS);
 }
 
-static int16_t rounded(float x) {
-    x = lh_clip(x, -32767.0f, 32767.0f);
-    return (int16_t)(x < 0.0f ? x - 0.5f : x + 0.5f);
-}
-
 void lh_posture_set_value(lh_posture_values *values, int32_t node, int32_t k, float value) {
-    values->value[node][k] = rounded(value * VALUE_UNITS);
+    values->value[node][k] = lh_round_16(value * VALUE_UNITS);
 }
 
 void lh_posture_set_cost(lh_posture_values *values, int32_t node, float cost) {
-    values->cost[node] = rounded(cost * COST_UNITS);
+    values->cost[node] = lh_round_16(cost * COST_UNITS);
 }
 
 bool lh_posture_values_fit(const lh_posture_values *saved, const lh_posture_values *values) {

@@ -21,10 +21,6 @@ lh_error lh_reward_config_validate(const lh_reward_config *config) {
     return good ? LH_OK : LH_ERROR_REWARD;
 }
 
-static float magnitude(float x) {
-    return x < 0.0f ? -x : x;
-}
-
 float lh_reward_motion(const lh_reward_config *config, const lh_pose2 *before, const lh_pose2 *after, float direction) {
     float px = after->x - before->x;
     float py = after->y - before->y;
@@ -33,11 +29,11 @@ float lh_reward_motion(const lh_reward_config *config, const lh_pose2 *before, c
     float d1 = ex * px + ey * py;
     float d2 = ex * py - ey * px;
     float phi = lh_wrap_angle(after->heading - (config->heading_error ? direction : before->heading));
-    return config->forward * d1 - config->sideways * magnitude(d2) - config->turn * magnitude(phi);
+    return config->forward * d1 - config->sideways * lh_magnitude(d2) - config->turn * lh_magnitude(phi);
 }
 
 float lh_reward_goal(const lh_reward_config *config, float lateral_error) {
-    return config->goal * lh_exp(-magnitude(lateral_error));
+    return config->goal * lh_exp(-lh_magnitude(lateral_error));
 }
 
 float lh_reward_stability(const lh_reward_config *config, float margin) {
