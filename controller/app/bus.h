@@ -4,7 +4,6 @@
 #define LIMPHOME_APP_BUS_H
 
 #include <lcm/eventlog.h>
-#include <lcm/lcm.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -15,10 +14,11 @@
 #include "limphome_robot_state_t.h"
 #include "limphome_status_t.h"
 #include "limphome_velocity_command_t.h"
+#include "udpm.h"
 
 /* Owns the bus and the log from bus_open to bus_close. */
 typedef struct bus {
-    lcm_t *lcm;
+    udpm lcm;
     lcm_eventlog_t *log; /* NULL: nothing is recorded */
     bool log_failed;     /* a write to the log failed */
     int64_t sender;      /* random per life */
