@@ -11,6 +11,7 @@
 #include "learned.h"
 #include "limphome/controller.h"
 #include "limphome_velocity_command_t.h"
+#include "rollback.h"
 #include "run_folder.h"
 #include "session.h"
 #include "urdf.h"
@@ -32,6 +33,8 @@ typedef struct run {
 
     bool learner_ready;
     lh_controller controller;
+    rollback kept;                       /* where the plant was last reset */
+    bool diverged;                       /* the plant has told that it ended the session by a fault */
     limphome_velocity_command_t command; /* answer to the newest state, to be repeated when asked again */
     bool reset_sent;                     /* a reset request for the present session is out */
 
