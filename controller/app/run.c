@@ -29,26 +29,8 @@ static bool open_policy(run *r, const char *path) {
     return true;
 }
 
-/* Takes what there is to begin with: nothing, a policy to be used, or a checkpoint to go on from. */
-static bool open_folder(run *r, const command_line *line) {
-    r->evaluating = line->evaluate != NULL;
-    if (r->evaluating && !open_policy(r, line->evaluate)) {
-        return false;
-    }
-    if (!line->resume) {
-        return run_folder_create(&r->folder, line->out, r->error);
-    }
-    run_folder_place place;
-    if (!run_folder_find(line->out, r->hash, &place, &r->learned, r->error) ||
-        !run_folder_resume(&r->folder, line->out, &place, r->error)) {
-        return false;
-    }
-    r->finished = place.episodes;
-    r->resuming = r->finished > 0;
-    return true;
-}
-
-bool run_open(run *r, const command_line *line) {
+/* Reads what the run follows from: the robot, the settings that fit it, and what was learned before, if anything. */
+static bool read_inputs(run *r, const command_line *line, run_folder_place *place) {
     memset(r, 0, sizeof *r);
     r->settings = line->settings;
     r->last = (int32_t)r->settings.learning.episodes;
@@ -61,11 +43,32 @@ bool run_open(run *r, const command_line *line) {
         return fail_with(r->error, "settings: %s", lh_error_text(bad));
     }
     r->hash = hash_of(r);
-    if (!bus_open(&r->bus, line->lcm_url, &r->folder.recording,
-                  r->error)) { /* before there is a folder that would be in the way */
+    r->evaluating = line->evaluate != NULL;
+    if (line->resume && !run_folder_find(line->out, r->hash, place, &r->learned, r->error)) {
         return false;
     }
-    if (!open_folder(r, line)) {
+    r->resuming = line->resume && place->episodes > 0;
+    r->finished = line->resume ? place->episodes : 0;
+    return !r->evaluating || open_policy(r, line->evaluate);
+}
+
+bool run_check(run *r, const command_line *line) {
+    run_folder_place place;
+    const bool good = read_inputs(r, line, &place);
+    if (good && line->resume) {
+        printf("goes on after episode %" PRId32 "\n", place.episodes);
+    }
+    return good;
+}
+
+bool run_open(run *r, const command_line *line) {
+    run_folder_place place;
+    if (!read_inputs(r, line, &place) ||
+        !bus_open(&r->bus, line->lcm_url, &r->folder.recording, r->error)) { /* before there is a folder in the way */
+        return false;
+    }
+    if (!(line->resume ? run_folder_resume(&r->folder, line->out, &place, r->error)
+                       : run_folder_create(&r->folder, line->out, r->error))) {
         run_folder_close(&r->folder, r->error);
         bus_close(&r->bus);
         return false;

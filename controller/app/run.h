@@ -48,6 +48,10 @@ typedef struct run {
     double status_at; /* next status is due [s] */
 } run;
 
+/* Reads all that a run follows from; of a run that is to be gone on with it prints after which episode it would be.
+ * False, with the reason in r->error, if anything is wrong. Nothing is written. */
+bool run_check(run *r, const command_line *line);
+
 /* Reads the robot, joins the bus, reads policy or checkpoint and makes the run folder. False, with the reason in
  * r->error and nothing left open, if anything is wrong. */
 bool run_open(run *r, const command_line *line);
