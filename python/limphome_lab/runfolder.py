@@ -170,11 +170,20 @@ def create(out, config, robot, assignments, controller_options=(), anew=False):
     folder = RunFolder(out)
     try:
         _take_empty(folder, out, anew)
-        files.replace(folder.config, resolved)
-        files.replace(folder.robot, Path(robot).read_bytes())
+        _write_inputs(folder, resolved, Path(robot).read_bytes())
     except OSError as error:
         raise InputError(f"{out}: cannot be made a run folder: {error.strerror}") from error
     return folder
+
+
+def _write_inputs(folder, config, robot):
+    """Both, or neither."""
+    try:
+        files.replace(folder.config, config)
+        files.replace(folder.robot, robot)
+    except OSError:
+        folder.config.unlink(missing_ok=True)
+        raise
 
 
 def _take_empty(folder, out, anew):
