@@ -7,16 +7,14 @@ one origin, unit by unit, so that their parameters have a mean; in it these chan
 from copy import copy
 
 from limphome_lab.runfolder import InputError
+from limphome_lab.sealed import unseal
 
 
 def read_policy(file):
     """The network in a checkpoint."""
     from limphome import checkpoint_t  # LCM is there once all is set up, and --help before
 
-    try:
-        checkpoint = checkpoint_t.decode(file.read_bytes())
-    except ValueError as error:
-        raise InputError(f"{file}: is no checkpoint of this version") from error
+    checkpoint = unseal(checkpoint_t, file.read_bytes(), file)
     if checkpoint.learner != checkpoint_t.Q_LEARNING:
         raise InputError(f"{file}: there is no network in it that could be averaged")
     return checkpoint.policy

@@ -19,7 +19,8 @@ def clock(seconds):
 
 
 class Progress:
-    """Feed it rows of episodes.csv as they come; those up to episode `done` are of an earlier part of the run.
+    """Feed it rows of episodes.csv as they come; those up to episode `done` are of an earlier part of the run,
+    and those told before are passed over.
 
     It counts the rows, as those of an evaluation are numbered on from the training's."""
 
@@ -39,6 +40,7 @@ class Progress:
         for episode in episodes:
             if episode.episode <= self.earlier:
                 continue
+            self.earlier = episode.episode  # a table that was cut back is read anew
             self.done += 1
             self.simulated_s += episode.duration_s
             self.recent.append((episode, now))
