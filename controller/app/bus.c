@@ -60,17 +60,8 @@ static void receive_status(const lcm_recv_buf_t *buffer, const char *channel, vo
 }
 
 static bool join_bus(bus *b, const char *url, char error[ERROR_LENGTH]) {
-    b->lcm = lcm_create(url);
-    if (b->lcm == NULL) {
-        return fail_with(
-            error, "%.200s: cannot join the bus; is the multicast group routed? (ip route add 239.255.76.67/32 dev lo)",
-            url == NULL ? "default LCM URL" : url);
-    }
-    if (lcm_subscribe(b->lcm, LIMPHOME_CHANNEL_STATE, receive_state, b) == NULL ||
-        lcm_subscribe(b->lcm, LIMPHOME_CHANNEL_STATUS, receive_status, b) == NULL) {
-        return fail_with(error, "the bus does not let us listen; is a firewall in the way?");
-    }
-    return true;
+    return udpm_open(&b->lcm, url, error) && udpm_subscribe(&b->lcm, LIMPHOME_CHANNEL_STATE, receive_state, b) &&
+           udpm_subscribe(&b->lcm, LIMPHOME_CHANNEL_STATUS, receive_status, b);
 }
 
 static bool draw_sender(bus *b, char error[ERROR_LENGTH]) {
@@ -79,23 +70,18 @@ static bool draw_sender(bus *b, char error[ERROR_LENGTH]) {
 }
 
 bool bus_open(bus *b, const char *url, recording *log, char error[ERROR_LENGTH]) {
-    *b = (bus){.recording = log};
-    if (draw_sender(b, error) && join_bus(b, url, error)) {
-        return true;
-    }
-    if (b->lcm != NULL) {
-        lcm_destroy(b->lcm);
-    }
-    return false;
+    memset(b, 0, sizeof *b); /* not by a literal, which would lie on the stack */
+    b->recording = log;
+    return draw_sender(b, error) && join_bus(b, url, error);
 }
 
 void bus_close(bus *b) {
-    lcm_destroy(b->lcm);
+    udpm_close(&b->lcm);
 }
 
 /* Whether a message can be handled without waiting longer than `milliseconds`; -1 on an error other than a signal. */
 static int readable(bus *b, int milliseconds) {
-    struct pollfd waiting = {.fd = lcm_get_fileno(b->lcm), .events = POLLIN};
+    struct pollfd waiting = {.fd = udpm_fileno(&b->lcm), .events = POLLIN};
     const int count = poll(&waiting, 1, milliseconds);
     return count < 0 && errno == EINTR ? 0 : count;
 }
@@ -105,7 +91,7 @@ bool bus_wait(bus *b, double timeout) {
     int ready = readable(b, (int)ceil(timeout * 1000));
     b->wait_time += bus_now() - begin;
     for (; ready > 0; ready = readable(b, 0)) {
-        if (lcm_handle(b->lcm) != 0) {
+        if (!udpm_handle(&b->lcm)) {
             return false;
         }
     }
@@ -133,7 +119,7 @@ bool bus_take_fault(bus *b, int64_t *session) {
 
 static void send(bus *b, const char *channel, unsigned char *bytes, int size, bool recorded) {
     if (size > 0) {
-        lcm_publish(b->lcm, channel, bytes, (unsigned int)size);
+        udpm_publish(&b->lcm, channel, bytes, size);
     }
     if (size > 0 && recorded) {
         recording_add(b->recording, channel, bytes, size);

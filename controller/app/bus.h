@@ -2,7 +2,6 @@
 #ifndef LIMPHOME_APP_BUS_H
 #define LIMPHOME_APP_BUS_H
 
-#include <lcm/lcm.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -14,10 +13,11 @@
 #include "limphome_status_t.h"
 #include "limphome_velocity_command_t.h"
 #include "recording.h"
+#include "udpm.h"
 
 /* Owns the bus from bus_open to bus_close. */
 typedef struct bus {
-    lcm_t *lcm;
+    udpm lcm;
     recording *recording; /* the caller's; told of all that is taken or sent */
     int64_t sender;       /* random per life */
 
