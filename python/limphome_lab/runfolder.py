@@ -2,6 +2,7 @@
 
 import configparser
 import csv
+import re
 import shutil
 import subprocess
 import sys
@@ -11,6 +12,8 @@ from pathlib import Path
 
 from limphome_lab import files, lock, paths
 from limphome_lab.ending import InputError
+
+CHECKPOINT = re.compile(r"episode_\d{6,}\.lcm")
 
 
 @dataclass
@@ -60,6 +63,11 @@ class RunFolder:
 
     def settings(self):
         return parse_settings(self.config.read_text(errors="replace"), self.config)
+
+    def checkpoint_files(self):
+        """The oldest first; whatever else lies there is none."""
+        files = [file for file in self.checkpoints.iterdir() if CHECKPOINT.fullmatch(file.name)]
+        return sorted(files, key=lambda file: int(file.stem.removeprefix("episode_")))
 
     def read_episodes(self):
         return EpisodeTail(self.episodes).read_new()

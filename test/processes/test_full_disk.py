@@ -11,8 +11,8 @@ from limphome_lab.messages import recorded
 from limphome_lab.runfolder import RunFolder
 
 SHORT = ["--episodes", "60", "--set", "episode.step_limit=20", "--set", "episode.reset_every=10"]
-# A disk of a size of its own, in a mount namespace that ends with the shell; then more room, and the run is gone on with
-# and copied to where it can be looked at.
+# A disk of a size of its own, in a mount namespace that ends with the shell; then more room, and the run is gone on
+# with and copied to where it can be looked at.
 SCRIPT = r"""
 mount -t tmpfs -o size="$1"k tmpfs "$2" && shift
 disk=$1; whole=$2; shift 2

@@ -25,7 +25,7 @@ def average_policy(folder, count):
     learner = folder.settings().get("learner", "kind", fallback="q_learning")
     if learner != "q_learning":
         raise InputError(f"--average: {folder.path} is of a {learner}; only networks of Q-learning have a mean")
-    files = sorted(folder.checkpoints.glob("episode_*.lcm"))[-count:]
+    files = folder.checkpoint_files()[-count:]
     if not 1 <= count == len(files):
         raise InputError(f"--average {count}: must be from 1 to the number of checkpoints in {folder.checkpoints}")
     policies = [read_policy(file) for file in files]

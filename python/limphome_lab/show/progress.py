@@ -24,12 +24,12 @@ class Progress:
 
     It counts the rows, as those of an evaluation are numbered on from the training's."""
 
-    def __init__(self, total, done=0, quiet=False, stream=sys.stderr):
+    def __init__(self, total, done=0, quiet=False, stream=None):
         self.total = total
         self.earlier = self.done = done
         self.quiet = quiet
-        self.stream = stream
-        self.live = stream.isatty()
+        self.stream = stream or sys.stderr
+        self.live = self.stream.isatty()
         self.began = time.monotonic()
         self.simulated_s = 0.0
         self.recent = deque(maxlen=RECENT)  # (episode, wall time at which it was seen)
