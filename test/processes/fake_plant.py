@@ -45,10 +45,11 @@ class FakePlant:
         self.begun = []  # episodes that resets were for
         self.heard = False  # the controller: garbage that nobody hears yet would not count
         self.garbage_before_state = self.garbage_met = 0
-        self.begin()
+        self.begin(reset_request_t())
 
-    def begin(self):
-        """The robot is put back; a new session begins."""
+    def begin(self, request):
+        """The robot is put back; a new session begins, as `request` asks for."""
+        self.owner, self.nonce = request.sender, request.nonce
         self.session = self.random.getrandbits(62)
         self.seq = self.utime = 0
         self.x = self.y = 0.0
@@ -60,6 +61,7 @@ class FakePlant:
     def state(self):
         state = robot_state_t()
         state.utime, state.session, state.seq, state.lockstep = self.utime, self.session, self.seq, 1
+        state.reset_sender, state.reset_nonce, state.armed = self.owner, self.nonce, 1
         state.num_actuators = len(self.angles)
         state.position = [self.x, self.y, 0.0]
         state.orientation = [math.cos(self.heading / 2), 0.0, 0.0, math.sin(self.heading / 2)]
@@ -121,7 +123,7 @@ class FakePlant:
         request = reset_request_t.decode(data)
         if request.session == self.session and not self.befalls("drop"):
             self.begun.append(request.episode)
-            self.begin()
+            self.begin(request)
 
     def serve(self, controller):
         while controller.poll() is None:
