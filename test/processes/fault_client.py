@@ -1,9 +1,9 @@
 """A controller of a few lines: python fault_client.py URL VELOCITIES COMMAND...
 
-Starts COMMAND, a limphome-simulator, asks for each session that began by itself to be reset and answers the states of
-all others with VELOCITIES (JSON, a list of commands) one after the other, then ends it. Prints JSON: those sessions with
-the number of their states, where each began, whether all values
-were finite, the newest count of faults with the session the plant told of, and the simulator's exit code.
+Starts COMMAND, a limphome-simulator, asks for a reset of each session that began by itself and answers the states of
+all others with VELOCITIES (JSON, a list of commands) one after the other, then ends it. Prints JSON: those sessions
+with the number of their states, where each began, whether all values were finite, the newest count of faults with the
+session the plant told of, and the simulator's exit code.
 """
 
 import json
