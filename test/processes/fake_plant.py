@@ -6,8 +6,8 @@ ghost (state 0 of the session before comes when one begins), invent, ahead (of o
 ahead of its turn), foreign (states of another session), leap (once, the robot goes on by itself); and `seed`.
 
 Prints JSON: the controller's exit code, how many states it answered, how often a command for one (session, seq)
-differed from an earlier one, the episodes that resets were for, how often each fault was done, how much of the garbage the
-controller must have met: what went out before a state that it answered; and what it said.
+differed from an earlier one, the episodes that resets were for, how often each fault was done, how much of the garbage
+the controller must have met: what went out before a state that it answered; and what it said.
 
 The robot is a point that the right crawler pushes and the swing joint steers.
 """

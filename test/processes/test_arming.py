@@ -110,6 +110,7 @@ def replay(folder):
         bus.own()
         bus.answer = lambda state: (driving(bus, state), bus.keep_armed(state))
         assert bus.until(lambda: bus.state.armed and fastest(bus.states[-3:]) > 0.2, 10)
+        bus.listen(1.5)
         bus.answer = None
         spoken, bus.keep = list(bus.heard), ()
         bus.listen(2.5)

@@ -2,6 +2,7 @@
 
 import signal
 import time
+from itertools import pairwise
 
 import pytest
 from bus import REAL_TIME, Bus, FakeRobot, controller, inside, simulator
@@ -151,7 +152,7 @@ def stopped(folder, which):
 def test_a_stop_disarms_and_is_not_learned_from(tmp_path, which, reasons, observe):
     seen = inside(stopped, str(tmp_path), which)
     decisions = [decision for _, decision in recorded(tmp_path / "run" / "messages.lcmlog", DECISION)]
-    across = [b for a, b in zip(decisions, decisions[1:], strict=False) if b.seq > a.seq + 1 and b.episode == a.episode]
+    across = [b for a, b in pairwise(decisions) if b.seq > a.seq + 1 and b.episode == a.episode]
     observe(f"{seen}; {sum(each.learned for each in across)} of {len(across)} steps across a gap learned")
     assert seen["armed"] == 0 and seen["speed"] < 0.02 and seen["reason"] in reasons and seen["sessions"] == 1
     assert across and not any(each.learned for each in across)
