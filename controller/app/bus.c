@@ -12,6 +12,7 @@
 #include "messages.h"
 
 enum { LARGEST_MESSAGE = 16384 };
+enum { MOST_STATUSES = 20 /* recorded in a second */ };
 enum { MOST_MESSAGES = 128 /* handled at once: some 0.3 ms */ };
 
 double bus_now(void) {
@@ -43,13 +44,25 @@ static void receive_state(const lcm_recv_buf_t *buffer, const char *channel, voi
     }
 }
 
+/* Of the plant's statuses, one a second and at each fault, so many are recorded: a flood must not fill the disk. */
+static bool may_record_status(bus *b) {
+    const double now = bus_now();
+    if (now - b->status_second >= 1) {
+        b->status_second = now;
+        b->statuses = 0;
+    }
+    return b->statuses++ < MOST_STATUSES;
+}
+
 /* The plant's status is kept in the log beside ours. */
 static void receive_status(const lcm_recv_buf_t *buffer, const char *channel, void *user) {
     bus *b = user;
     limphome_status_t status;
     const int size = limphome_status_t_decode(buffer->data, 0, (int)buffer->data_size, &status);
     if (size == (int)buffer->data_size && status.process == LIMPHOME_STATUS_T_PLANT) {
-        recording_add(b->recording, channel, buffer->data, size);
+        if (may_record_status(b)) {
+            recording_add(b->recording, channel, buffer->data, size);
+        }
         if (status.condition == LIMPHOME_STATUS_T_FAULT) {
             b->listener.fault(b->listener.user, status.session);
         }

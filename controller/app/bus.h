@@ -33,6 +33,8 @@ typedef struct bus {
     bus_listener listener;
     limphome_status_t counts; /* the counters of LIMPHOME_STATUS that are counted here and by the listener */
     double wait_time;         /* spent in bus_wait [s] */
+    double status_second;     /* when the second began in which `statuses` of the plant were recorded [s] */
+    int statuses;
 } bus;
 
 /* Joins the bus at `url` (NULL: LCM's default) and records in `log`. False, with the reason in `error` and nothing left

@@ -108,7 +108,8 @@ static session_verdict ask(session_tracker *t, const session_label *label, doubl
 
 /* A session that we have not asked for: the plant was restarted, or obeys another. */
 static session_verdict judge_other(session_tracker *t, const session_label *label, double now) {
-    if (t->known && !t->over && !is_silent(t, now)) {
+    const bool follows = t->over && label->sender == 0; /* after a fault the plant's session is nobody's */
+    if (t->known && !follows && !is_silent(t, now)) {
         return SESSION_OTHER;
     }
     if (t->known && !t->asking) {

@@ -41,8 +41,8 @@ class Arming {
    private:
     void renew_challenge(double now);
 
-    const bool needed_;
-    const double operator_timeout_;
+    bool needed_;
+    double operator_timeout_;
     bool armed_;
     int8_t reason_;
     int64_t challenge_;

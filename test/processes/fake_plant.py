@@ -3,9 +3,11 @@
 Starts COMMAND, a limphome-controller, and answers it in lockstep until it ends. FAULTS is JSON with the probabilities
 of what befalls a message: drop, duplicate, reorder (an earlier state comes again), garbage (a broken copy comes too),
 ghost (state 0 of the session before comes when one begins), invent, ahead (of our session, with seq 2^63-1, or two
-ahead of its turn), foreign (states of another session), leap (once, the robot goes on by itself); and `seed`. Prints JSON: the controller's exit code, how many states it answered, how often a command for one
-(session, seq) differed from an earlier one, the episodes that resets were for, how often each fault was done, and how
-much of the garbage the controller must have met: what went out before a state that it answered; and what it said.
+ahead of its turn), foreign (states of another session), leap (once, the robot goes on by itself); and `seed`.
+
+Prints JSON: the controller's exit code, how many states it answered, how often a command for one (session, seq)
+differed from an earlier one, the episodes that resets were for, how often each fault was done, how much of the garbage
+the controller must have met: what went out before a state that it answered; and what it said.
 
 The robot is a point that the right crawler pushes and the swing joint steers.
 """
@@ -163,13 +165,14 @@ class FakePlant:
 def main():
     faults, url, command = json.loads(sys.argv[1]), sys.argv[2], sys.argv[3:]
     plant = FakePlant(url, {"keep": 0.1, **faults})
-    words = tempfile.TemporaryFile("w+")
-    controller = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=words)
-    try:
-        plant.serve(controller)
-    finally:
-        controller.kill()
-    words.seek(0)
+    with tempfile.TemporaryFile("w+") as errors:
+        controller = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=errors)
+        try:
+            plant.serve(controller)
+        finally:
+            controller.kill()
+        errors.seek(0)
+        words = errors.read()
     print(
         json.dumps(
             {
@@ -179,7 +182,7 @@ def main():
                 "done": plant.done,
                 "begun": plant.begun,
                 "garbage_met": plant.garbage_met,
-                "words": words.read(),
+                "words": words,
             }
         )
     )
