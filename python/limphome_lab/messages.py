@@ -1,8 +1,7 @@
 """The messages of a run: what each channel carries, and the recording."""
 
-import lcm
-
 from limphome import (
+    arm_request_t,
     decision_t,
     episode_t,
     ground_truth_t,
@@ -13,12 +12,14 @@ from limphome import (
     status_t,
     velocity_command_t,
 )
-from limphome_lab.channels import COMMAND, DECISION, EPISODE, PLANNER, POLICY, RESET, STATE, STATUS, TRUTH
+from limphome_lab.channels import ARM, COMMAND, DECISION, EPISODE, PLANNER, POLICY, RESET, STATE, STATUS, TRUTH
+from limphome_lab.recording import read_log
 
 TYPES = {
     STATE: robot_state_t,
     COMMAND: velocity_command_t,
     RESET: reset_request_t,
+    ARM: arm_request_t,
     TRUTH: ground_truth_t,
     DECISION: decision_t,
     EPISODE: episode_t,
@@ -28,18 +29,6 @@ TYPES = {
 }
 
 OUTCOMES = {episode_t.GOAL: "goal", episode_t.TUMBLE: "tumble", episode_t.TIMEOUT: "timeout"}
-
-
-def read_log(path, begin=0):
-    """Yields (channel, encoded message) of a recording in the order they were written, from byte `begin` on."""
-    log = lcm.EventLog(str(path), "r")
-    try:
-        if begin > 0:
-            log.seek(begin)
-        for event in log:
-            yield event.channel, event.data
-    finally:
-        log.close()
 
 
 def recorded(path, *channels):
