@@ -137,6 +137,9 @@ static void decide(run *r, const limphome_robot_state_t *state) {
     if (!r->learner_ready && !begin_learner(r, state)) {
         return;
     }
+    if (state->lockstep == 0) { /* a plant in real time is watched, whatever the settings say */
+        lh_controller_guard(&r->controller);
+    }
     const lh_state sensed = convert_state(state);
     lh_decision decision = {.velocity = {0}};
     const lh_error error = lh_controller_step(&r->controller, &sensed, &decision);
@@ -164,10 +167,8 @@ static void decide(run *r, const limphome_robot_state_t *state) {
     bus_record_state(&r->bus, state);
     r->decisions++;
     r->utime = state->utime;
-    if (error == LH_OK) {
-        const limphome_decision_t message = convert_decision(&r->controller, &decision, state);
-        bus_send_decision(&r->bus, &message);
-    }
+    const limphome_decision_t message = convert_decision(&r->controller, &decision, state);
+    bus_send_decision(&r->bus, &message);
     if (ended) {
         finish_episode(r, &observed->summary, state);
     }

@@ -94,3 +94,13 @@ int32_t lh_planned_joint_action(const lh_planned *planned, int32_t action) {
     }
     return lh_action_index(levels, planned->num_controlled);
 }
+
+int32_t lh_planned_action(const lh_planned *planned, int32_t joint_action) {
+    int8_t levels[LH_MAX_ACTUATORS];
+    int8_t of_planned[LH_MAX_PLANNED];
+    lh_action_levels(joint_action, planned->num_controlled, levels);
+    for (int32_t k = 0; k < planned->count; k++) {
+        of_planned[k] = levels[planned->place[k]];
+    }
+    return lh_action_index(of_planned, planned->count);
+}

@@ -52,6 +52,9 @@ void lh_planned_move(const lh_planned *planned, const float *angle, int32_t acti
 /* The task's joint action that is `action`, with all others still. */
 int32_t lh_planned_joint_action(const lh_planned *planned, int32_t action);
 
+/* The inverse: what the task's joint action is of the planned actuators. */
+int32_t lh_planned_action(const lh_planned *planned, int32_t joint_action);
+
 #ifdef __cplusplus
 }
 #endif

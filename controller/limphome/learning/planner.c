@@ -220,6 +220,12 @@ void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool lear
     planner->node = node;
 }
 
+void lh_planner_executed(lh_planner *planner, int32_t action) {
+    planner->action = lh_planned_action(&planner->planned, action);
+    lh_planning_look(planner, planner->angle); /* the choice has looked further */
+    planner->expected = planner->outlook.expected[planner->action];
+}
+
 void lh_planner_save(const lh_planner *planner, lh_planner_learned *learned) {
     *learned = planner->learned;
 }

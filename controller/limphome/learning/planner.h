@@ -129,6 +129,10 @@ void lh_planner_begin(lh_planner *planner);
  * chance decides some of the actions in any case. */
 void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool learn, bool greedy, lh_choice *choice);
 
+/* Another action than the one just chosen is executed, one that moves no actuator that is not planned with: what is
+ * measured is what that one does. */
+void lh_planner_executed(lh_planner *planner, int32_t action);
+
 void lh_planner_save(const lh_planner *planner, lh_planner_learned *learned);
 
 /* LH_ERROR_PLANNER or LH_ERROR_RANDOM_STATE, and nothing changed, if what was saved is of other postures or actions or

@@ -1,0 +1,35 @@
+/* Finds joints that do not move although they are told to. A joint that presses against something may be stopped in one
+ * direction; one that has failed moves in neither. Crawlers slip, so what their belts do does not tell. */
+#ifndef LIMPHOME_STUCK_H
+#define LIMPHOME_STUCK_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "limphome/body/robot.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define LH_STUCK_DECISIONS 3 /* in each direction without moving in between, and a joint is stuck */
+#define LH_STUCK_SHARE 0.1f  /* less of the way that it was to go is not moving */
+
+typedef struct lh_stuck {
+    int8_t up[LH_MAX_ACTUATORS];   /* decisions in which it was to move up and did not, since it last moved */
+    int8_t down[LH_MAX_ACTUATORS]; /* likewise */
+} lh_stuck;
+
+/* Nothing is known: no joint is stuck. */
+void lh_stuck_begin(lh_stuck *stuck);
+
+/* Takes in that joint `index` was to go `way` [rad] and went `gone` [rad]; of one that was not to go nothing is told.
+ */
+void lh_stuck_watch(lh_stuck *stuck, int32_t index, float way, float gone);
+
+bool lh_stuck_is(const lh_stuck *stuck, int32_t index);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
