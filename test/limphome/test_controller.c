@@ -491,12 +491,14 @@ START_TEST(what_is_executed_is_learned) {
         const lh_decision d = step(&controller, &state);
         ck_assert_int_eq(d.intervention.action, 40);
         ck_assert_int_ne(d.choice.action, 40); /* it never chooses to be still */
-        ck_assert_int_eq(controller.learner.as.planner.action, 40);
-        ck_assert_float_eq(controller.learner.as.planner.expected.forward, 0.0f);
+        ck_assert_int_eq(controller.learner.as.planner.executed, 40);
+        ck_assert_float_eq(controller.learner.as.planner.expected_executed.forward, 0.0f);
     }
     const lh_motion_model *model = &controller.learner.as.planner.learned.model;
-    ck_assert_int_eq(model->num_samples, 1);
     ck_assert_int_eq(model->action[0], 40);
+    ck_assert_int_eq(model->count[0], 2);
+    ck_assert_int_ne(model->action[1], 40); /* and what was chosen leads nowhere either */
+    ck_assert_int_eq(model->motion[3][1], -16384);
 }
 END_TEST
 

@@ -33,39 +33,35 @@ uint32_t lh_interlock_hazards(const lh_guarded *a, bool joints_unsafe) {
 }
 
 void lh_interlock(const lh_guarded *guarded, int32_t count, uint32_t whole, bool joints_unsafe, lh_verdict *verdict) {
-    verdict->hazards = whole;
-    verdict->stilled = 0;
-    /*@ loop invariant 0 <= k <= LH_MAX_ACTUATORS;
-      @ loop invariant \forall integer i; 0 <= i < k ==> lh_is_still(verdict, i);
-      @ loop assigns k, verdict->level[0 .. LH_MAX_ACTUATORS - 1], verdict->velocity[0 .. LH_MAX_ACTUATORS - 1];
-      @ loop variant LH_MAX_ACTUATORS - k;
-      @*/
-    for (int32_t k = 0; k < LH_MAX_ACTUATORS; k++) {
-        verdict->level[k] = LH_STILL;
-        verdict->velocity[k] = 0.0f;
-    }
+    uint32_t hazards[LH_MAX_ACTUATORS];
     /*@ loop invariant 0 <= k <= count;
-      @ loop invariant \forall integer i; k <= i < LH_MAX_ACTUATORS ==> lh_is_still(verdict, i);
-      @ loop invariant \forall integer i; 0 <= i < k ==> lh_is_still(verdict, i) ||
-      @   (verdict->level[i] == guarded[i].level && verdict->velocity[i] == guarded[i].velocity && whole == 0 &&
-      @    !lh_hazardous(guarded + i, joints_unsafe));
-      @ loop invariant \forall integer i; 0 <= i < k ==> whole == 0 && guarded[i].level != LH_STILL ==>
-      @   !lh_hazardous(guarded + i, joints_unsafe) ==> verdict->level[i] == guarded[i].level;
-      @ loop assigns k, *verdict;
+      @ loop invariant \forall integer i; 0 <= i < k ==> guarded[i].level != LH_STILL ==>
+      @   (hazards[i] != 0 <==> lh_hazardous(guarded + i, joints_unsafe));
+      @ loop assigns k, hazards[0 .. count - 1];
       @ loop variant count - k;
       @*/
     for (int32_t k = 0; k < count; k++) {
-        const lh_guarded *a = &guarded[k];
-        uint32_t hazards = lh_interlock_hazards(a, joints_unsafe);
-        verdict->hazards |= hazards;
-        if (a->level == LH_STILL) {
-            continue;
-        }
-        if (whole == 0 && hazards == 0) {
-            verdict->level[k] = a->level;
-            verdict->velocity[k] = a->velocity;
-        } else {
-            verdict->stilled |= (uint32_t)1 << k;
-        }
+        hazards[k] = lh_interlock_hazards(&guarded[k], joints_unsafe);
+    }
+    verdict->hazards = whole;
+    verdict->stilled = 0;
+    /*@ loop invariant 0 <= k <= LH_MAX_ACTUATORS;
+      @ loop invariant \forall integer i; 0 <= i < k ==> lh_is_still(verdict, i) || (i < count &&
+      @   verdict->level[i] == \at(guarded[i].level, Pre) && verdict->velocity[i] == \at(guarded[i].velocity, Pre));
+      @ loop invariant \forall integer i; 0 <= i < k && i < count ==>
+      @   whole != 0 || \at(lh_hazardous(guarded + i, joints_unsafe), Pre) ==> lh_is_still(verdict, i);
+      @ loop invariant \forall integer i; 0 <= i < k && i < count ==>
+      @   whole == 0 && !\at(lh_hazardous(guarded + i, joints_unsafe), Pre) ==>
+      @   verdict->level[i] == \at(guarded[i].level, Pre);
+      @ loop assigns k, *verdict;
+      @ loop variant LH_MAX_ACTUATORS - k;
+      @*/
+    for (int32_t k = 0; k < LH_MAX_ACTUATORS; k++) {
+        bool moves = k < count && guarded[k].level != LH_STILL;
+        bool passes = moves && whole == 0 && hazards[k] == 0;
+        verdict->level[k] = passes ? guarded[k].level : LH_STILL;
+        verdict->velocity[k] = passes ? guarded[k].velocity : 0.0f;
+        verdict->hazards |= k < count ? hazards[k] : 0;
+        verdict->stilled |= moves && !passes ? (uint32_t)1 << k : 0;
     }
 }

@@ -82,25 +82,28 @@ uint32_t lh_interlock_hazards(const lh_guarded *a, bool joints_unsafe);
   @ requires \separated(guarded + (0 .. count - 1), verdict);
   @ assigns *verdict;
   @ ensures proposed_or_still: \forall integer k; 0 <= k < count ==> lh_is_still(verdict, k) ||
-  @   (verdict->level[k] == guarded[k].level && verdict->velocity[k] == guarded[k].velocity);
+  @   (verdict->level[k] == \old(guarded[k].level) && verdict->velocity[k] == \old(guarded[k].velocity));
   @ ensures nothing_else_moves: \forall integer k; count <= k < LH_MAX_ACTUATORS ==> lh_is_still(verdict, k);
-  @ ensures speed: \forall integer k; 0 <= k < count ==> 0 <= guarded[k].speed_limit ==>
-  @   -guarded[k].speed_limit <= verdict->velocity[k] <= guarded[k].speed_limit;
+  @ ensures hazardous_is_still: \forall integer k; 0 <= k < count ==>
+  @   whole != 0 || \old(lh_hazardous(guarded + k, joints_unsafe)) ==> lh_is_still(verdict, k);
+  @ ensures not_without_reason: \forall integer k; 0 <= k < count ==>
+  @   whole == 0 && !\old(lh_hazardous(guarded + k, joints_unsafe)) ==>
+  @   verdict->level[k] == \old(guarded[k].level);
+  @ ensures speed: \forall integer k; 0 <= k < count ==> \old(0 <= guarded[k].speed_limit) ==>
+  @   \old(-guarded[k].speed_limit) <= verdict->velocity[k] <= \old(guarded[k].speed_limit);
   @ ensures acceleration: \forall integer k; 0 <= k < count ==>
-  @   lh_beyond(guarded[k].change, guarded[k].change_limit) ==> lh_is_still(verdict, k);
+  @   \old(lh_beyond(guarded[k].change, guarded[k].change_limit)) ==> lh_is_still(verdict, k);
   @ ensures not_up_into_stop: \forall integer k; 0 <= k < count ==>
-  @   guarded[k].is_joint && (guarded[k].angle >= guarded[k].high || guarded[k].ahead > guarded[k].high) ==>
+  @   \old(guarded[k].is_joint && (guarded[k].angle >= guarded[k].high || guarded[k].ahead > guarded[k].high)) ==>
   @   verdict->velocity[k] <= 0;
   @ ensures not_down_into_stop: \forall integer k; 0 <= k < count ==>
-  @   guarded[k].is_joint && (guarded[k].angle <= guarded[k].low || guarded[k].ahead < guarded[k].low) ==>
+  @   \old(guarded[k].is_joint && (guarded[k].angle <= guarded[k].low || guarded[k].ahead < guarded[k].low)) ==>
   @   verdict->velocity[k] >= 0;
   @ ensures out_of_order: \forall integer k; 0 <= k < count ==>
-  @   guarded[k].failed || guarded[k].stuck ==> lh_is_still(verdict, k);
+  @   \old(guarded[k].failed || guarded[k].stuck) ==> lh_is_still(verdict, k);
   @ ensures joints_stop: joints_unsafe ==> \forall integer k; 0 <= k < count ==>
-  @   guarded[k].is_joint ==> lh_is_still(verdict, k);
+  @   \old(guarded[k].is_joint) ==> lh_is_still(verdict, k);
   @ ensures whole_stop: whole != 0 ==> \forall integer k; 0 <= k < LH_MAX_ACTUATORS ==> lh_is_still(verdict, k);
-  @ ensures not_without_reason: whole == 0 ==> \forall integer k; 0 <= k < count ==> guarded[k].level != LH_STILL ==>
-  @   !lh_hazardous(guarded + k, joints_unsafe) ==> verdict->level[k] == guarded[k].level;
   @*/
 void lh_interlock(const lh_guarded *guarded, int32_t count, uint32_t whole, bool joints_unsafe, lh_verdict *verdict);
 

@@ -1,18 +1,24 @@
 #include "limphome/safety/stuck.h"
 
-#include <string.h>
-
 #include "limphome/base/elementary.h"
 
 void lh_stuck_begin(lh_stuck *stuck) {
-    memset(stuck, 0, sizeof *stuck);
+    /*@ loop invariant 0 <= k <= LH_MAX_ACTUATORS;
+      @ loop invariant \forall integer i; 0 <= i < k ==> stuck->up[i] == 0 && stuck->down[i] == 0;
+      @ loop assigns k, *stuck;
+      @ loop variant LH_MAX_ACTUATORS - k;
+      @*/
+    for (int32_t k = 0; k < LH_MAX_ACTUATORS; k++) {
+        stuck->up[k] = 0;
+        stuck->down[k] = 0;
+    }
 }
 
 void lh_stuck_watch(lh_stuck *stuck, int32_t index, float way, float gone) {
-    int8_t *count = way > 0.0f ? &stuck->up[index] : &stuck->down[index];
     if (way == 0.0f) {
         return;
     }
+    int8_t *count = way > 0.0f ? &stuck->up[index] : &stuck->down[index];
     if (lh_magnitude(gone) >= LH_STUCK_SHARE * lh_magnitude(way)) {
         stuck->up[index] = 0;
         stuck->down[index] = 0;

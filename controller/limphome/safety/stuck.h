@@ -20,13 +20,26 @@ typedef struct lh_stuck {
     int8_t down[LH_MAX_ACTUATORS]; /* likewise */
 } lh_stuck;
 
+/*@ predicate lh_stuck_counts{L}(lh_stuck *s) = \forall integer k; 0 <= k < LH_MAX_ACTUATORS ==>
+  @   0 <= s->up[k] <= LH_STUCK_DECISIONS && 0 <= s->down[k] <= LH_STUCK_DECISIONS;
+  @*/
+
 /* Nothing is known: no joint is stuck. */
+/*@ requires \valid(stuck);
+  @ assigns *stuck;
+  @ ensures lh_stuck_counts(stuck);
+  @ ensures \forall integer k; 0 <= k < LH_MAX_ACTUATORS ==> stuck->up[k] == 0 && stuck->down[k] == 0;
+  @*/
 void lh_stuck_begin(lh_stuck *stuck);
 
 /* Takes in that joint `index` was to go `way` [rad] and went `gone` [rad]; of one that was not to go nothing is told.
  */
 void lh_stuck_watch(lh_stuck *stuck, int32_t index, float way, float gone);
 
+/*@ requires \valid_read(stuck) && 0 <= index < LH_MAX_ACTUATORS;
+  @ assigns \nothing;
+  @ ensures \result != 0 <==> stuck->up[index] >= LH_STUCK_DECISIONS && stuck->down[index] >= LH_STUCK_DECISIONS;
+  @*/
 bool lh_stuck_is(const lh_stuck *stuck, int32_t index);
 
 #ifdef __cplusplus
