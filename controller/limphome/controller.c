@@ -29,6 +29,9 @@ lh_error lh_controller_init(lh_controller *controller, const lh_config *config, 
     }
     if (error == LH_OK) {
         lh_monitor_init(&controller->monitor, &config->monitor);
+        if (config->monitor.active) {
+            lh_controller_guard(controller);
+        }
     }
     return error;
 }
@@ -63,7 +66,10 @@ void lh_controller_gap(lh_controller *controller) {
 }
 
 void lh_controller_guard(lh_controller *controller) {
-    controller->monitor.config.active = true;
+    lh_monitor_config *config = &controller->monitor.config;
+    config->active = true;
+    lh_learner_keep_clear(&controller->learner,
+                          controller->task.config.joint_speed * config->period + config->stop_clearance);
 }
 
 /* Nothing is taken from the state. */

@@ -4,7 +4,7 @@
 
 #include "limphome/task/action.h"
 
-#define CLEARANCE 0.03f /* this near to its limit a joint is not driven towards it [rad] */
+#define CLEARANCE 0.03f /* of joints to their limits, unless more is asked for [rad] */
 
 _Static_assert(LH_MAX_PLANNED == 4 || LH_MAX_PLANNED == 5, "one crawler or two, and the joints");
 
@@ -26,6 +26,7 @@ static void add(lh_planned *planned, const lh_task *task, int32_t place) {
 void lh_planned_init(lh_planned *planned, const lh_task *task, float period) {
     memset(planned, 0, sizeof *planned);
     planned->num_controlled = task->controlled.count;
+    planned->clearance = CLEARANCE;
     for (int32_t k = 0; k < task->controlled.count; k++) {
         bool is_joint = task->robot.actuators[task->controlled.index[k]].kind == LH_JOINT;
         if (is_joint ? planned->num_joints < LH_PLANNED_JOINTS
@@ -70,8 +71,8 @@ bool lh_planned_allows(const lh_planned *planned, const float *angle, int32_t ac
     }
     const int8_t *level = lh_planned_joint_levels(planned, action);
     for (int32_t k = 0; k < planned->num_joints; k++) {
-        if ((level[k] == 0 && angle[k] < planned->low[k] + CLEARANCE) ||
-            (level[k] == 2 && angle[k] > planned->high[k] - CLEARANCE)) {
+        if ((level[k] == 0 && angle[k] < planned->low[k] + planned->clearance) ||
+            (level[k] == 2 && angle[k] > planned->high[k] - planned->clearance)) {
             return false;
         }
     }

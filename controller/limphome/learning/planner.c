@@ -80,6 +80,11 @@ lh_error lh_planner_init(lh_planner *planner, const lh_planner_config *config, c
     return LH_OK;
 }
 
+void lh_planner_keep_clear(lh_planner *planner, float clearance) {
+    float *own = &planner->planned.clearance;
+    *own = clearance > *own ? clearance : *own;
+}
+
 void lh_planner_begin(lh_planner *planner) {
     planner->acting = false;
     planner->node = LH_NO_NODE;

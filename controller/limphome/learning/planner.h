@@ -123,6 +123,9 @@ lh_error lh_planner_config_validate(const lh_planner_config *config);
  * changed. */
 lh_error lh_planner_init(lh_planner *planner, const lh_planner_config *config, const lh_task *task, uint64_t seed);
 
+/* Chooses nothing that drives a joint nearer than `clearance` to its limit towards it [rad]; not less than its own. */
+void lh_planner_keep_clear(lh_planner *planner, float clearance);
+
 /* Forgets the step under way. */
 void lh_planner_begin(lh_planner *planner);
 

@@ -32,10 +32,19 @@ typedef struct lh_stuck {
   @*/
 void lh_stuck_begin(lh_stuck *stuck);
 
-/* Takes in that joint `index` was to go `way` [rad] and went `gone` [rad]; of one that was not to go nothing is told.
- */
+/* Joint `index` was to go `way` and went `gone` [rad]. One that was not to go tells nothing. */
+/*@ requires \valid(stuck) && 0 <= index < LH_MAX_ACTUATORS && lh_stuck_counts(stuck);
+  @ assigns stuck->up[index], stuck->down[index];
+  @ ensures lh_stuck_counts(stuck);
+  @ ensures idle: way == 0 ==>
+  @   stuck->up[index] == \old(stuck->up[index]) && stuck->down[index] == \old(stuck->down[index]);
+  @ ensures one_at_a_time: (stuck->up[index] == 0 && stuck->down[index] == 0) ||
+  @   (stuck->up[index] <= \old(stuck->up[index]) + 1 && stuck->down[index] == \old(stuck->down[index])) ||
+  @   (stuck->down[index] <= \old(stuck->down[index]) + 1 && stuck->up[index] == \old(stuck->up[index]));
+  @*/
 void lh_stuck_watch(lh_stuck *stuck, int32_t index, float way, float gone);
 
+/* Whether joint `index` is. */
 /*@ requires \valid_read(stuck) && 0 <= index < LH_MAX_ACTUATORS;
   @ assigns \nothing;
   @ ensures \result != 0 <==> stuck->up[index] >= LH_STUCK_DECISIONS && stuck->down[index] >= LH_STUCK_DECISIONS;
