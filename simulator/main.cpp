@@ -10,6 +10,7 @@
 #include "model/robot_model.h"
 #include "plant/link.h"
 #include "plant/loop.h"
+#include "process.h"
 
 namespace {
 
@@ -28,16 +29,16 @@ int main(int argc, char **argv) {
     if (result != COMMAND_LINE_RUN) {
         return result == COMMAND_LINE_DONE ? done : bad_input;
     }
-    struct sigaction action {};
-    action.sa_handler = on_signal;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    process_end_on_signals(on_signal);
 
     std::optional<limphome::World> world;
     std::optional<limphome::Link> link;
     try {
         const limphome::RobotModel model = limphome::read_robot(line.robot);
         world.emplace(model, line.settings);
+        if (line.check) {
+            return done;
+        }
         link.emplace(line.lcm_url == nullptr ? "" : line.lcm_url, line.settings, world->num_actuators());
     } catch (const std::exception &error) {
         std::fprintf(stderr, "%s\n", error.what());

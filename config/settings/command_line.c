@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "config_path.h"
+#include "process.h"
 
 enum { MAX_ASSIGNMENTS = 64 };
 
@@ -17,6 +18,7 @@ enum option_code {
     OUT,
     EVALUATE,
     RESUME,
+    CHECK,
     HELP,
     HELP_SETTINGS,
     PRINT_SETTINGS,
@@ -29,6 +31,7 @@ static const struct option controller_options[] = {
     {"set", required_argument, NULL, SET},
     {"robot", required_argument, NULL, ROBOT},
     {"lcm-url", required_argument, NULL, LCM_URL},
+    {"check", no_argument, NULL, CHECK},
     {"help", no_argument, NULL, HELP},
     {"help-settings", no_argument, NULL, HELP_SETTINGS},
     {"print-settings", no_argument, NULL, PRINT_SETTINGS},
@@ -38,13 +41,14 @@ static const struct option controller_options[] = {
     {"evaluate", required_argument, NULL, EVALUATE},
     {NULL, 0, NULL, 0},
 };
-enum { SHARED_OPTIONS = 8 };
+enum { SHARED_OPTIONS = 9 };
 
 static const char shared_help[] =
     "  --config FILE            settings of the experiment (INI); without it, the paper's\n"
     "  --set section.key=value  one setting, over those of the file; may be repeated\n"
     "  --robot FILE             the robot (URDF); default crawler.urdf\n"
     "  --lcm-url URL            bus to talk on; default $LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0\n"
+    "  --check                  read all that is given, tell what is wrong with it, and exit; nothing is written\n"
     "  --print-settings         print all settings as resolved, as an INI file, and exit\n"
     "  --help-settings          print every setting with range, default and meaning, and exit\n"
     "  --version                print the version and exit\n"
@@ -57,7 +61,7 @@ static const char files_help[] =
 
 static const char controller_help[] =
     "  --out DIR                write the run folder: episodes.csv, policy.lcm, checkpoint/, messages.lcmlog\n"
-    "  --resume                 go on from the newest checkpoint in DIR\n"
+    "  --resume                 go on from the newest good checkpoint in DIR; with --check, tell which\n"
     "  --evaluate POLICY        drive with a learned policy, without learning, [learning] episodes more\n";
 
 static const char *program_name(command_line_program program) {
@@ -66,7 +70,8 @@ static const char *program_name(command_line_program program) {
 
 static void print_help(command_line_program program) {
     const bool controller = program == COMMAND_LINE_CONTROLLER;
-    printf("%s: %s\n\nusage: %s [options]\n\n%s%s\n%sSIGINT and SIGTERM end it cleanly.\n", program_name(program),
+    printf("%s: %s\n\nusage: %s [options]\n\n%s%s\n%sSIGINT, SIGTERM and SIGHUP end it cleanly.\n",
+           program_name(program),
            controller ? "learns to move a robot with a failed crawler, or moves it with what was learned"
                       : "simulates the robot behind the messages a real one would speak",
            program_name(program), shared_help, controller ? controller_help : "", files_help);
@@ -117,6 +122,7 @@ command_line_result command_line_parse(int argc, char **argv, command_line_progr
         memset(&options[SHARED_OPTIONS], 0, sizeof options[0]);
     }
     memset(line, 0, sizeof *line);
+    process_prepare_streams();
     const char *config = NULL, *robot = NULL;
     char *assignments[MAX_ASSIGNMENTS];
     int count = 0;
@@ -148,6 +154,9 @@ command_line_result command_line_parse(int argc, char **argv, command_line_progr
                 break;
             case RESUME:
                 line->resume = true;
+                break;
+            case CHECK:
+                line->check = true;
                 break;
             case PRINT_SETTINGS:
                 print_settings = true;

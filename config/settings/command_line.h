@@ -18,6 +18,7 @@ typedef struct command_line {
     const char *out;          /* controller: --out, the run folder, or NULL */
     const char *evaluate;     /* controller: --evaluate, a policy file, or NULL */
     bool resume;              /* controller: --resume */
+    bool check;               /* --check: read and check all, and exit */
     char own_robot[CONFIG_PATH_LENGTH];
 } command_line;
 
@@ -30,7 +31,7 @@ typedef enum command_line_result {
     COMMAND_LINE_BAD   /* an error has been printed: exit 2 */
 } command_line_result;
 
-/* Reads argv into `line`, whose strings point into argv or itself: it is not to be copied. */
+/* Prepares the standard streams and reads argv into `line`, whose strings point into argv or itself: it is not to be copied. */
 command_line_result command_line_parse(int argc, char **argv, command_line_program program, command_line *line);
 
 #ifdef __cplusplus

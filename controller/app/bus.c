@@ -24,25 +24,6 @@ int64_t bus_now_us(void) {
     return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
 }
 
-/* Adds a message to the log under the wall-clock time, as lcm-logger would. */
-static void record(bus *b, const char *channel, void *data, int size) {
-    if (b->log == NULL) {
-        return;
-    }
-    struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
-    char name[64];
-    snprintf(name, sizeof name, "%s", channel);
-    lcm_eventlog_event_t event = {
-        .timestamp = (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000,
-        .channellen = (int32_t)strlen(name),
-        .datalen = size,
-        .channel = name,
-        .data = data,
-    };
-    b->log_failed = lcm_eventlog_write_event(b->log, &event) != 0 || b->log_failed;
-}
-
 static void receive_state(const lcm_recv_buf_t *buffer, const char *channel, void *user) {
     (void)channel;
     bus *b = user;
@@ -70,7 +51,7 @@ static void receive_status(const lcm_recv_buf_t *buffer, const char *channel, vo
     limphome_status_t status;
     const int size = limphome_status_t_decode(buffer->data, 0, (int)buffer->data_size, &status);
     if (size == (int)buffer->data_size && status.process == LIMPHOME_STATUS_T_PLANT) {
-        record(b, channel, buffer->data, size);
+        recording_add(b->recording, channel, buffer->data, size);
         if (status.condition == LIMPHOME_STATUS_T_FAULT) {
             b->faulted = true;
             b->fault_session = status.session;
@@ -79,17 +60,8 @@ static void receive_status(const lcm_recv_buf_t *buffer, const char *channel, vo
 }
 
 static bool join_bus(bus *b, const char *url, char error[ERROR_LENGTH]) {
-    b->lcm = lcm_create(url);
-    if (b->lcm == NULL) {
-        return fail_with(
-            error, "%.200s: cannot join the bus; is the multicast group routed? (ip route add 239.255.76.67/32 dev lo)",
-            url == NULL ? "default LCM URL" : url);
-    }
-    if (lcm_subscribe(b->lcm, LIMPHOME_CHANNEL_STATE, receive_state, b) == NULL ||
-        lcm_subscribe(b->lcm, LIMPHOME_CHANNEL_STATUS, receive_status, b) == NULL) {
-        return fail_with(error, "the bus does not let us listen; is a firewall in the way?");
-    }
-    return true;
+    return udpm_open(&b->lcm, url, error) && udpm_subscribe(&b->lcm, LIMPHOME_CHANNEL_STATE, receive_state, b) &&
+           udpm_subscribe(&b->lcm, LIMPHOME_CHANNEL_STATUS, receive_status, b);
 }
 
 static bool draw_sender(bus *b, char error[ERROR_LENGTH]) {
@@ -97,34 +69,19 @@ static bool draw_sender(bus *b, char error[ERROR_LENGTH]) {
            fail_with(error, "no random numbers from the system: %s", strerror(errno));
 }
 
-bool bus_open(bus *b, const char *url, char error[ERROR_LENGTH]) {
-    memset(b, 0, sizeof *b);
-    if (draw_sender(b, error) && join_bus(b, url, error)) {
-        return true;
-    }
-    if (b->lcm != NULL) {
-        lcm_destroy(b->lcm);
-    }
-    return false;
+bool bus_open(bus *b, const char *url, recording *log, char error[ERROR_LENGTH]) {
+    memset(b, 0, sizeof *b); /* not by a literal, which would lie on the stack */
+    b->recording = log;
+    return draw_sender(b, error) && join_bus(b, url, error);
 }
 
-bool bus_record(bus *b, const char *log_path, bool append, char error[ERROR_LENGTH]) {
-    b->log = lcm_eventlog_create(log_path, append ? "a" : "w");
-    return b->log != NULL || fail_with(error, "%.200s: cannot be written: %s", log_path, strerror(errno));
-}
-
-bool bus_close(bus *b, char error[ERROR_LENGTH]) {
-    lcm_destroy(b->lcm);
-    if (b->log != NULL) {
-        b->log_failed = fflush(b->log->f) != 0 || b->log_failed;
-        lcm_eventlog_destroy(b->log);
-    }
-    return !b->log_failed || fail_with(error, "messages.lcmlog is not complete");
+void bus_close(bus *b) {
+    udpm_close(&b->lcm);
 }
 
 /* Whether a message can be handled without waiting longer than `milliseconds`; -1 on an error other than a signal. */
 static int readable(bus *b, int milliseconds) {
-    struct pollfd waiting = {.fd = lcm_get_fileno(b->lcm), .events = POLLIN};
+    struct pollfd waiting = {.fd = udpm_fileno(&b->lcm), .events = POLLIN};
     const int count = poll(&waiting, 1, milliseconds);
     return count < 0 && errno == EINTR ? 0 : count;
 }
@@ -134,7 +91,7 @@ bool bus_wait(bus *b, double timeout) {
     int ready = readable(b, (int)ceil(timeout * 1000));
     b->wait_time += bus_now() - begin;
     for (; ready > 0; ready = readable(b, 0)) {
-        if (lcm_handle(b->lcm) != 0) {
+        if (!udpm_handle(&b->lcm)) {
             return false;
         }
     }
@@ -162,16 +119,16 @@ bool bus_take_fault(bus *b, int64_t *session) {
 
 static void send(bus *b, const char *channel, unsigned char *bytes, int size, bool recorded) {
     if (size > 0) {
-        lcm_publish(b->lcm, channel, bytes, (unsigned int)size);
+        udpm_publish(&b->lcm, channel, bytes, size);
     }
     if (size > 0 && recorded) {
-        record(b, channel, bytes, size);
+        recording_add(b->recording, channel, bytes, size);
     }
 }
 
 void bus_record_state(bus *b, const limphome_robot_state_t *state) {
     unsigned char bytes[LARGEST_MESSAGE];
-    record(b, LIMPHOME_CHANNEL_STATE, bytes, ENCODE(robot_state_t, state, bytes));
+    recording_add(b->recording, LIMPHOME_CHANNEL_STATE, bytes, ENCODE(robot_state_t, state, bytes));
 }
 
 void bus_send_command(bus *b, const limphome_velocity_command_t *command, bool repeats) {

@@ -1,10 +1,7 @@
-/* The bus: LCM in and out, with every message checked on entry and counted, and a record of all that was taken or sent.
- */
+/* The bus: LCM in and out, with every message checked on entry and counted, and all that is taken or sent recorded. */
 #ifndef LIMPHOME_APP_BUS_H
 #define LIMPHOME_APP_BUS_H
 
-#include <lcm/eventlog.h>
-#include <lcm/lcm.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -15,13 +12,14 @@
 #include "limphome_robot_state_t.h"
 #include "limphome_status_t.h"
 #include "limphome_velocity_command_t.h"
+#include "recording.h"
+#include "udpm.h"
 
-/* Owns the bus and the log from bus_open to bus_close. */
+/* Owns the bus from bus_open to bus_close. */
 typedef struct bus {
-    lcm_t *lcm;
-    lcm_eventlog_t *log; /* NULL: nothing is recorded */
-    bool log_failed;     /* a write to the log failed */
-    int64_t sender;      /* random per life */
+    udpm lcm;
+    recording *recording; /* the caller's; told of all that is taken or sent */
+    int64_t sender;       /* random per life */
 
     bool fresh;                    /* `newest` has not been taken yet */
     limphome_robot_state_t newest; /* newest good state heard */
@@ -31,14 +29,12 @@ typedef struct bus {
     double wait_time;              /* spent in bus_wait [s] */
 } bus;
 
-/* Joins the bus at `url` (NULL: LCM's default). False, with the reason in `error` and nothing left open, on failure. */
-bool bus_open(bus *b, const char *url, char error[ERROR_LENGTH]);
+/* Joins the bus at `url` (NULL: LCM's default) and records in `log`. False, with the reason in `error` and nothing left
+ * open, on failure. */
+bool bus_open(bus *b, const char *url, recording *log, char error[ERROR_LENGTH]);
 
-/* Records from now on in `log_path`, adding to it if `append`. False, with the reason in `error`, on failure. */
-bool bus_record(bus *b, const char *log_path, bool append, char error[ERROR_LENGTH]);
-
-/* Leaves the bus and closes the log. False, with the reason in `error`, if the log is not complete. */
-bool bus_close(bus *b, char error[ERROR_LENGTH]);
+/* Leaves the bus. */
+void bus_close(bus *b);
 
 /* Waits at most `timeout` [s], rounded up to milliseconds, for messages and takes in all that are there. False if the
  * bus is broken. */

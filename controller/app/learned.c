@@ -2,9 +2,34 @@
 
 #include <string.h>
 
+#include "checksum.h"
 #include "learned_planner.h"
 #include "learned_q_learning.h"
 #include "limphome_channels.h"
+
+static int encode_policy(const learned *l, unsigned char *bytes, int size) {
+    switch (l->kind) {
+        case LH_Q_LEARNING:
+            return limphome_policy_t_encode(bytes, 0, size, &l->as.q_learning.policy);
+        case LH_PLANNER:
+            return limphome_planner_t_encode(bytes, 0, size, &l->as.planner.planner);
+    }
+    return -1;
+}
+
+/* The policy within a checkpoint has the checksum that it has by itself, so that it can be taken out. */
+static void seal_policy(learned *l) {
+    unsigned char bytes[LEARNED_LARGEST];
+    const int32_t sum = checksum_seal(bytes, encode_policy(l, bytes, sizeof bytes));
+    switch (l->kind) {
+        case LH_Q_LEARNING:
+            l->as.q_learning.policy.crc32 = sum;
+            break;
+        case LH_PLANNER:
+            l->as.planner.planner.crc32 = sum;
+            break;
+    }
+}
 
 void learned_save(learned *l, const lh_controller *c, int32_t episode, int64_t utime, int64_t settings_hash) {
     memset(l, 0, sizeof *l);
@@ -24,6 +49,7 @@ void learned_save(learned *l, const lh_controller *c, int32_t episode, int64_t u
             l->as.planner.planner.utime = utime;
             break;
     }
+    seal_policy(l);
 }
 
 bool learned_restore(const learned *l, const lh_controller *c, lh_learned *restored) {
@@ -72,17 +98,7 @@ const char *learned_channel(const learned *l) {
     return NULL;
 }
 
-int learned_encode_policy(const learned *l, unsigned char *bytes, int size) {
-    switch (l->kind) {
-        case LH_Q_LEARNING:
-            return limphome_policy_t_encode(bytes, 0, size, &l->as.q_learning.policy);
-        case LH_PLANNER:
-            return limphome_planner_t_encode(bytes, 0, size, &l->as.planner.planner);
-    }
-    return -1;
-}
-
-int learned_encode_checkpoint(const learned *l, unsigned char *bytes, int size) {
+static int encode_checkpoint(const learned *l, unsigned char *bytes, int size) {
     switch (l->kind) {
         case LH_Q_LEARNING:
             return limphome_checkpoint_t_encode(bytes, 0, size, &l->as.q_learning);
@@ -90,6 +106,18 @@ int learned_encode_checkpoint(const learned *l, unsigned char *bytes, int size) 
             return limphome_planner_checkpoint_t_encode(bytes, 0, size, &l->as.planner);
     }
     return -1;
+}
+
+int learned_encode_policy(const learned *l, unsigned char *bytes, int size) {
+    const int length = encode_policy(l, bytes, size);
+    checksum_seal(bytes, length);
+    return length;
+}
+
+int learned_encode_checkpoint(const learned *l, unsigned char *bytes, int size) {
+    const int length = encode_checkpoint(l, bytes, size);
+    checksum_seal(bytes, length);
+    return length;
 }
 
 message_verdict learned_decode_policy(const void *data, size_t size, learned *l) {

@@ -40,7 +40,7 @@ int64_t learned_settings_hash(const learned *l);
 /* Channel on which a policy of its kind is told. */
 const char *learned_channel(const learned *l);
 
-/* Each returns the number of bytes, or -1 if these are more than `size`. */
+/* Each seals what it writes with its checksum and returns the number of bytes, or -1 if these are more than `size`. */
 int learned_encode_policy(const learned *l, unsigned char *bytes, int size);
 int learned_encode_checkpoint(const learned *l, unsigned char *bytes, int size);
 

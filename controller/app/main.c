@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "command_line.h"
+#include "process.h"
 #include "run.h"
 
 static volatile sig_atomic_t stop;
@@ -19,11 +20,15 @@ int main(int argc, char **argv) {
     if (result != COMMAND_LINE_RUN) {
         return result == COMMAND_LINE_DONE ? DONE : BAD_INPUT;
     }
-    const struct sigaction action = {.sa_handler = on_signal};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-
     static run r; /* too large for a comfortable stack frame */
+    if (line.check) {
+        const bool good = run_check(&r, &line);
+        if (!good) {
+            fprintf(stderr, "%s\n", r.error);
+        }
+        return good ? DONE : BAD_INPUT;
+    }
+    process_end_on_signals(on_signal);
     if (!run_open(&r, &line)) {
         fprintf(stderr, "%s\n", r.error);
         return BAD_INPUT;

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "checksum.h"
 #include "limphome/learning/planner.h"
 
 enum { WIRE_ACTUATORS = 8, WIRE_UNITS = 64, WIRE_INPUTS = 18 };
@@ -69,12 +70,18 @@ message_verdict message_decode_policy(const void *data, size_t size, limphome_po
     if (size > INT_MAX || limphome_policy_t_decode(data, 0, (int)size, policy) != (int)size) {
         return MESSAGE_MALFORMED;
     }
+    if (!checksum_holds(data, size)) {
+        return MESSAGE_DAMAGED;
+    }
     return check_policy(policy);
 }
 
 message_verdict message_decode_checkpoint(const void *data, size_t size, limphome_checkpoint_t *checkpoint) {
     if (size > INT_MAX || limphome_checkpoint_t_decode(data, 0, (int)size, checkpoint) != (int)size) {
         return MESSAGE_MALFORMED;
+    }
+    if (!checksum_holds(data, size)) {
+        return MESSAGE_DAMAGED;
     }
     const bool sound =
         checkpoint->learner == LIMPHOME_CHECKPOINT_T_Q_LEARNING && checkpoint->episode == checkpoint->policy.episode;
@@ -102,6 +109,9 @@ message_verdict message_decode_planner(const void *data, size_t size, limphome_p
     if (size > INT_MAX || limphome_planner_t_decode(data, 0, (int)size, planner) != (int)size) {
         return MESSAGE_MALFORMED;
     }
+    if (!checksum_holds(data, size)) {
+        return MESSAGE_DAMAGED;
+    }
     return check_planner(planner);
 }
 
@@ -110,6 +120,9 @@ message_verdict message_decode_planner_checkpoint(const void *data, size_t size,
     if (size > INT_MAX || limphome_planner_checkpoint_t_decode(data, 0, (int)size, checkpoint) != (int)size) {
         return MESSAGE_MALFORMED;
     }
+    if (!checksum_holds(data, size)) {
+        return MESSAGE_DAMAGED;
+    }
     return checkpoint->episode == checkpoint->planner.episode ? check_planner(&checkpoint->planner) : MESSAGE_MALFORMED;
 }
 
@@ -117,6 +130,8 @@ const char *message_verdict_text(message_verdict verdict) {
     switch (verdict) {
         case MESSAGE_GOOD:
             return "good";
+        case MESSAGE_DAMAGED:
+            return "does not match its checksum (damaged)";
         case MESSAGE_NON_FINITE:
             return "holds NaN or infinity";
         case MESSAGE_MALFORMED:

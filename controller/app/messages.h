@@ -13,6 +13,7 @@
 typedef enum message_verdict {
     MESSAGE_GOOD,
     MESSAGE_MALFORMED, /* another type, length or count */
+    MESSAGE_DAMAGED,   /* what was learned, and its checksum is not that of its bytes */
     MESSAGE_NON_FINITE /* NaN or infinity inside */
 } message_verdict;
 

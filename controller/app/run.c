@@ -29,30 +29,8 @@ static bool open_policy(run *r, const char *path) {
     return true;
 }
 
-/* Takes what there is to begin with: nothing, a policy to be used, or a checkpoint to go on from. */
-static bool open_folder(run *r, const command_line *line) {
-    r->evaluating = line->evaluate != NULL;
-    r->resuming = line->resume;
-    if (r->evaluating && !open_policy(r, line->evaluate)) {
-        return false;
-    }
-    if (!r->resuming) {
-        return run_folder_create(&r->folder, line->out, r->error);
-    }
-    if (!run_folder_resume(&r->folder, line->out, r->hash, &r->learned, r->error)) {
-        return false;
-    }
-    r->finished = learned_episode(&r->learned);
-    return true;
-}
-
-static bool open_log(run *r) {
-    char log[RUN_FOLDER_PATH_LENGTH + 32];
-    snprintf(log, sizeof log, "%s/messages.lcmlog", r->folder.path);
-    return r->folder.path[0] == '\0' || bus_record(&r->bus, log, r->resuming, r->error);
-}
-
-bool run_open(run *r, const command_line *line) {
+/* Reads what the run follows from: the robot, the settings that fit it, and what was learned before, if anything. */
+static bool read_inputs(run *r, const command_line *line, run_folder_place *place) {
     memset(r, 0, sizeof *r);
     r->settings = line->settings;
     r->last = (int32_t)r->settings.learning.episodes;
@@ -65,12 +43,34 @@ bool run_open(run *r, const command_line *line) {
         return fail_with(r->error, "settings: %s", lh_error_text(bad));
     }
     r->hash = hash_of(r);
-    if (!bus_open(&r->bus, line->lcm_url, r->error)) { /* before there is a folder that would be in the way */
+    r->evaluating = line->evaluate != NULL;
+    if (line->resume && !run_folder_find(line->out, r->hash, place, &r->learned, r->error)) {
         return false;
     }
-    if (!open_folder(r, line) || !open_log(r)) {
+    r->resuming = line->resume && place->episodes > 0;
+    r->finished = line->resume ? place->episodes : 0;
+    return !r->evaluating || open_policy(r, line->evaluate);
+}
+
+bool run_check(run *r, const command_line *line) {
+    run_folder_place place;
+    const bool good = read_inputs(r, line, &place);
+    if (good && line->resume) {
+        printf("goes on after episode %" PRId32 "\n", place.episodes);
+    }
+    return good;
+}
+
+bool run_open(run *r, const command_line *line) {
+    run_folder_place place;
+    if (!read_inputs(r, line, &place) ||
+        !bus_open(&r->bus, line->lcm_url, &r->folder.recording, r->error)) { /* before there is a folder in the way */
+        return false;
+    }
+    if (!(line->resume ? run_folder_resume(&r->folder, line->out, &place, r->error)
+                       : run_folder_create(&r->folder, line->out, r->error))) {
         run_folder_close(&r->folder, r->error);
-        bus_close(&r->bus, r->error);
+        bus_close(&r->bus);
         return false;
     }
     session_init(&r->session, r->settings.link.sender_timeout_s);
@@ -104,6 +104,7 @@ static bool begin_learner(run *r, const limphome_robot_state_t *state) {
         return fail_with(r->error, "the plant's robot and ours do not go together: %s", lh_error_text(error));
     }
     r->learner_ready = restore_learner(r);
+    rollback_keep(&r->kept, &r->controller, r->finished, &r->folder);
     return r->learner_ready;
 }
 
@@ -172,6 +173,27 @@ static void decide(run *r, const limphome_robot_state_t *state) {
     if (ended) {
         finish_episode(r, &observed->summary, state);
     }
+    if (observed->reset && !last) {
+        rollback_keep(&r->kept, &r->controller, r->finished, &r->folder);
+    }
+}
+
+/* The plant has put the robot back without being asked to. A simulation that diverged would do so again: its episode
+ * begins anew. Of a simulator that is another process now, all since it was last reset is done again. */
+static void begin_again(run *r, bool lockstep) {
+    if (!r->learner_ready) {
+        return;
+    }
+    if (lockstep && !r->diverged) {
+        rollback_return(&r->kept, &r->controller, &r->folder, r->error);
+        r->finished = r->kept.place.episodes;
+        fprintf(stderr, "the plant has started anew; back to the end of episode %d\n", r->finished);
+    } else {
+        lh_controller_begin(&r->controller);
+        rollback_keep(&r->kept, &r->controller, r->finished, &r->folder);
+        fprintf(stderr, "the plant has put the robot back; the episode begins anew\n");
+    }
+    r->diverged = false;
 }
 
 static void handle_state(run *r, const limphome_robot_state_t *state) {
@@ -185,12 +207,9 @@ static void handle_state(run *r, const limphome_robot_state_t *state) {
             break;
         case SESSION_RESET:
             if (r->session.restarted) {
-                fprintf(stderr, "the plant has started anew; so does the episode\n");
                 r->session.restarted = false;
                 r->reset_sent = false;
-                if (r->learner_ready) {
-                    lh_controller_begin(&r->controller);
-                }
+                begin_again(r, state->lockstep != 0);
             }
             send_reset(r);
             break;
@@ -227,10 +246,14 @@ bool run_decide(run *r, const volatile sig_atomic_t *stop) {
         int64_t ended;
         if (bus_take_fault(&r->bus, &ended)) {
             session_over(&r->session, ended);
+            r->diverged = r->session.over;
         }
         limphome_robot_state_t state;
         if (bus_take(&r->bus, &state)) {
             handle_state(r, &state);
+        }
+        if (!recording_good(&r->folder.recording, r->error)) {
+            return false;
         }
         if (bus_now() >= r->status_at) {
             send_status(r, r->learner_ready ? LIMPHOME_STATUS_T_RUNNING : LIMPHOME_STATUS_T_WAITING);
@@ -252,6 +275,6 @@ bool run_close(run *r, bool complete) {
     }
     send_status(r, failed ? LIMPHOME_STATUS_T_FAULT : LIMPHOME_STATUS_T_FINISHED);
     run_folder_close(&r->folder, r->error);
-    bus_close(&r->bus, r->error);
+    bus_close(&r->bus);
     return r->error[0] == '\0';
 }

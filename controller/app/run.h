@@ -11,6 +11,7 @@
 #include "learned.h"
 #include "limphome/controller.h"
 #include "limphome_velocity_command_t.h"
+#include "rollback.h"
 #include "run_folder.h"
 #include "session.h"
 #include "urdf.h"
@@ -32,6 +33,8 @@ typedef struct run {
 
     bool learner_ready;
     lh_controller controller;
+    rollback kept;                       /* where the plant was last reset */
+    bool diverged;                       /* the plant has told that it ended the session by a fault */
     limphome_velocity_command_t command; /* answer to the newest state, to be repeated when asked again */
     bool reset_sent;                     /* a reset request for the present session is out */
 
@@ -44,6 +47,10 @@ typedef struct run {
     double started;   /* monotonic [s] */
     double status_at; /* next status is due [s] */
 } run;
+
+/* Reads all that a run follows from; of a run that is to be gone on with it prints after which episode it would be.
+ * False, with the reason in r->error, if anything is wrong. Nothing is written. */
+bool run_check(run *r, const command_line *line);
 
 /* Reads the robot, joins the bus, reads policy or checkpoint and makes the run folder. False, with the reason in
  * r->error and nothing left open, if anything is wrong. */

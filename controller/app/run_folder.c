@@ -2,243 +2,235 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <inttypes.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { LARGEST_FILE = LEARNED_LARGEST, LINE_LENGTH = 512 };
+#include "episode_table.h"
+#include "folder_lock.h"
 
-static const char csv_header[] =
-    "episode,outcome,steps,duration_s,reward,reward_motion,reward_goal,reward_stability,reward_tumble,lateral_error_m,"
-    "heading_change_rad,temperature\n";
+enum { LARGEST_FILE = LEARNED_LARGEST };
 
-/* What a call of the system has left in errno. */
-static bool fail_by_system(char error[ERROR_LENGTH], const char *path) {
-    return fail_with(error, "%.200s: %s", path, strerror(errno));
-}
-
-static bool join(char path[RUN_FOLDER_PATH_LENGTH], const char *folder, const char *name, char error[ERROR_LENGTH]) {
-    const int length = snprintf(path, RUN_FOLDER_PATH_LENGTH, "%s/%s", folder, name);
-    return length < RUN_FOLDER_PATH_LENGTH || fail_with(error, "%.200s: the path is too long", folder);
-}
+static const char checkpoint_folder[] = "checkpoint", table_name[] = "episodes.csv",
+                  recording_name[] = "messages.lcmlog", policy_name[] = "policy.lcm";
 
 static bool make_folder(const char *path, char error[ERROR_LENGTH]) {
-    return mkdir(path, 0777) == 0 || errno == EEXIST || fail_by_system(error, path);
+    return mkdir(path, 0777) == 0 || errno == EEXIST || files_fail(error, path);
 }
 
-/* Gives a file that was written beside `path` its name, so that a reader or a crash never meets half of it; nothing is
- * left of one that could not be `written`. */
-static bool put_in_place(const char *fresh, const char *path, bool written, char error[ERROR_LENGTH]) {
-    if (written && rename(fresh, path) == 0) {
-        return true;
-    }
-    fail_by_system(error, path);
-    remove(fresh);
-    return false;
+static bool exists(const char *path) {
+    return access(path, F_OK) == 0;
 }
 
-static bool replace_file(const char *path, const void *data, size_t size, char error[ERROR_LENGTH]) {
-    char fresh[RUN_FOLDER_PATH_LENGTH + 8];
-    snprintf(fresh, sizeof fresh, "%s.new", path);
-    FILE *file = fopen(fresh, "wb");
-    if (file == NULL) {
-        return fail_by_system(error, fresh);
-    }
-    const bool good = fwrite(data, 1, size, file) == size && fflush(file) == 0 && fsync(fileno(file)) == 0;
-    return put_in_place(fresh, path, fclose(file) == 0 && good, error);
+static bool begin_table(run_folder *folder, char error[ERROR_LENGTH]) {
+    char name[FILES_PATH_LENGTH];
+    return files_join(name, folder->path, table_name, error) && episode_table_create(&folder->episodes, name, error);
 }
 
-/* Reads a whole small file; its length, or -1. */
-static long read_file(const char *path, unsigned char bytes[LARGEST_FILE], char error[ERROR_LENGTH]) {
-    FILE *file = fopen(path, "rb");
-    if (file == NULL) {
-        fail_by_system(error, path);
-        return -1;
+static bool begin_recording(run_folder *folder, char error[ERROR_LENGTH]) {
+    char name[FILES_PATH_LENGTH];
+    return files_join(name, folder->path, recording_name, error) && recording_create(&folder->recording, name, error);
+}
+
+/* Takes the folder for this controller. */
+static bool enter(run_folder *folder, const char *path, char error[ERROR_LENGTH]) {
+    char name[FILES_PATH_LENGTH];
+    memset(folder, 0, sizeof *folder);
+    folder->lock = -1;
+    if (!files_join(name, path, checkpoint_folder, error) || !make_folder(path, error) ||
+        !folder_lock_take(&folder->lock, path, error)) {
+        return false;
     }
-    const size_t size = fread(bytes, 1, LARGEST_FILE, file);
-    const bool good = !ferror(file);
-    fclose(file);
-    if (!good) {
-        fail_with(error, "%.200s: cannot be read", path);
-        return -1;
-    }
-    return (long)size;
+    snprintf(folder->path, sizeof folder->path, "%s", path);
+    return make_folder(name, error);
 }
 
 bool run_folder_create(run_folder *folder, const char *path, char error[ERROR_LENGTH]) {
-    memset(folder, 0, sizeof *folder);
     if (path == NULL) {
+        memset(folder, 0, sizeof *folder);
+        folder->lock = -1;
         return true;
     }
-    char name[RUN_FOLDER_PATH_LENGTH];
-    snprintf(folder->path, sizeof folder->path, "%s", path);
-    if (!join(name, path, "checkpoint", error) || !make_folder(path, error) || !make_folder(name, error) ||
-        !join(name, path, "episodes.csv", error)) {
-        return false;
-    }
-    folder->episodes = fopen(name, "wx");
-    if (folder->episodes == NULL) {
-        return errno == EEXIST
-                   ? fail_with(error, "%.200s: there is a run in this folder already; --resume goes on with it", name)
-                   : fail_by_system(error, name);
-    }
-    if (fputs(csv_header, folder->episodes) < 0 || fflush(folder->episodes) != 0) {
-        fail_by_system(error, name);
-        fclose(folder->episodes);
-        folder->episodes = NULL;
-        return false;
-    }
-    return true;
+    return enter(folder, path, error) && begin_table(folder, error) && begin_recording(folder, error);
 }
 
-/* Number of the newest checkpoint/episode_NNNNNN.lcm, or -1. */
-static long newest_checkpoint(const char *folder, char error[ERROR_LENGTH]) {
+/* Number of the newest checkpoint/episode_NNNNNN.lcm before that of `before`; 0 if there is none, -1 on failure. */
+static long newest_checkpoint(const char *folder, long before, char error[ERROR_LENGTH]) {
     DIR *entries = opendir(folder);
     if (entries == NULL) {
-        fail_by_system(error, folder);
-        return -1;
+        return errno == ENOENT ? 0 : (long)files_fail(error, folder) - 1;
     }
-    long newest = -1;
+    long newest = 0;
     for (const struct dirent *entry; (entry = readdir(entries)) != NULL;) {
         long number = 0;
-        char rest[8] = "";
-        if (sscanf(entry->d_name, "episode_%ld%7s", &number, rest) == 2 && strcmp(rest, ".lcm") == 0 &&
-            number > newest) {
+        char name[40];
+        if (sscanf(entry->d_name, "episode_%9ld", &number) != 1) {
+            continue;
+        }
+        snprintf(name, sizeof name, "episode_%06ld.lcm", number);
+        if (strcmp(entry->d_name, name) == 0 && number > newest && number < before) {
             newest = number;
         }
     }
     closedir(entries);
-    if (newest < 0) {
-        fail_with(error, "%.200s: holds no checkpoint to go on from", folder);
-    }
     return newest;
 }
 
-/* Copies header and rows of episodes 1 to `episodes` into a new file that replaces the old one. */
-static bool cut_episodes(const char *path, int32_t episodes, char error[ERROR_LENGTH]) {
-    char fresh[RUN_FOLDER_PATH_LENGTH + 8];
-    snprintf(fresh, sizeof fresh, "%s.new", path);
-    FILE *old = fopen(path, "r");
-    if (old == NULL) {
-        return fail_by_system(error, path);
-    }
-    FILE *cut = fopen(fresh, "w");
-    if (cut == NULL) {
-        fclose(old);
-        return fail_by_system(error, fresh);
-    }
-    char line[LINE_LENGTH];
-    int32_t rows = -1;
-    bool whole = true, written = true;
-    while (whole && written && rows < episodes) {
-        whole = fgets(line, sizeof line, old) != NULL && strchr(line, '\n') != NULL &&
-                (rows >= 0 || strcmp(line, csv_header) == 0);
-        written = !whole || fputs(line, cut) >= 0;
-        rows++;
-    }
-    fclose(old);
-    written = fclose(cut) == 0 && written;
-    if (!whole) {
-        remove(fresh);
-        return fail_with(error, "%.200s: does not hold the rows of all episodes up to the checkpoint", path);
-    }
-    return put_in_place(fresh, path, written, error);
-}
-
 /* Reads and checks checkpoint/episode_NNNNNN.lcm of that number. */
-static bool read_checkpoint(const char *folder, long number, int64_t settings_hash, learned *l,
-                            char error[ERROR_LENGTH]) {
-    char name[RUN_FOLDER_PATH_LENGTH];
+static bool read_checkpoint(const char *folder, long number, learned *l, char error[ERROR_LENGTH]) {
+    char name[FILES_PATH_LENGTH];
     char base[48];
     unsigned char bytes[LARGEST_FILE];
-    snprintf(base, sizeof base, "checkpoint/episode_%06ld.lcm", number);
-    const long size = join(name, folder, base, error) ? read_file(name, bytes, error) : -1;
-    if (size < 0) {
+    size_t size;
+    snprintf(base, sizeof base, "%s/episode_%06ld.lcm", checkpoint_folder, number);
+    if (!files_join(name, folder, base, error) || !files_read(name, bytes, sizeof bytes, &size, error)) {
         return false;
     }
-    const message_verdict verdict = learned_decode_checkpoint(bytes, (size_t)size, l);
+    const message_verdict verdict = learned_decode_checkpoint(bytes, size, l);
     if (verdict != MESSAGE_GOOD) {
         return fail_with(error, "%.200s: %s", name, message_verdict_text(verdict));
-    }
-    if (learned_settings_hash(l) != settings_hash) {
-        return fail_with(error, "%.200s: was made with other settings or another robot; it cannot be gone on with",
-                         folder);
     }
     return learned_episode(l) == number || fail_with(error, "%.200s: is of another episode", name);
 }
 
-bool run_folder_resume(run_folder *folder, const char *path, int64_t settings_hash, learned *l,
-                       char error[ERROR_LENGTH]) {
-    memset(folder, 0, sizeof *folder);
-    snprintf(folder->path, sizeof folder->path, "%s", path);
-    char name[RUN_FOLDER_PATH_LENGTH];
-    long number = -1;
-    if (!join(name, path, "checkpoint", error) || (number = newest_checkpoint(name, error)) < 0 ||
-        !read_checkpoint(path, number, settings_hash, l, error) || !join(name, path, "episodes.csv", error) ||
-        !cut_episodes(name, learned_episode(l), error)) {
+/* Where table and recording end that have `episodes` finished episodes. A recording that somebody took away is missed
+ * by nothing here: another one begins. */
+static bool find_place(const char *folder, int32_t episodes, run_folder_place *place, char error[ERROR_LENGTH]) {
+    char name[FILES_PATH_LENGTH];
+    *place = (run_folder_place){.episodes = episodes};
+    if (!files_join(name, folder, table_name, error) || !episode_table_find(name, episodes, &place->table, error) ||
+        !files_join(name, folder, recording_name, error)) {
         return false;
     }
-    folder->episodes = fopen(name, "a");
-    return folder->episodes != NULL || fail_by_system(error, name);
+    return !exists(name) || recording_find(name, episodes, &place->recording, error);
 }
 
-static const char *outcome_word(int8_t outcome) {
-    switch (outcome) {
-        case LIMPHOME_EPISODE_T_GOAL:
-            return "goal";
-        case LIMPHOME_EPISODE_T_TUMBLE:
-            return "tumble";
-        case LIMPHOME_EPISODE_T_TIMEOUT:
-            return "timeout";
-        default: /* of a number from outside */
-            return "none";
-    }
+/* A run without a checkpoint begins anew, unless what lies there is no run. */
+static bool find_beginning(const char *folder, run_folder_place *place, char error[ERROR_LENGTH]) {
+    char name[FILES_PATH_LENGTH];
+    *place = (run_folder_place){.episodes = 0};
+    return (exists(folder) || files_fail(error, folder)) && files_join(name, folder, table_name, error) &&
+           (!exists(name) || episode_table_find(name, 0, &place->table, error));
 }
 
-bool run_folder_episode(run_folder *folder, const limphome_episode_t *e, char error[ERROR_LENGTH]) {
-    if (folder->episodes == NULL) {
-        return true;
+bool run_folder_find(const char *path, int64_t settings_hash, run_folder_place *place, learned *l,
+                     char error[ERROR_LENGTH]) {
+    char name[FILES_PATH_LENGTH];
+    if (!files_join(name, path, checkpoint_folder, error)) {
+        return false;
     }
-    fprintf(folder->episodes, "%d,%s,%d,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", e->episode,
-            outcome_word(e->outcome), e->steps, e->duration, e->reward, e->reward_motion, e->reward_goal,
-            e->reward_stability, e->reward_tumble, e->lateral_error, e->heading_change, e->temperature);
-    return fflush(folder->episodes) == 0 || fail_by_system(error, "episodes.csv");
+    long number = newest_checkpoint(name, LH_LAST_EPISODE, error);
+    if (number == 0) {
+        return find_beginning(path, place, error);
+    }
+    while (number > 0) {
+        char why[ERROR_LENGTH] = "";
+        if (read_checkpoint(path, number, l, why)) {
+            if (learned_settings_hash(l) != settings_hash) {
+                return fail_with(
+                    error, "%.200s: was made with other settings or another robot; it cannot be gone on with", path);
+            }
+            if (find_place(path, (int32_t)number, place, why)) {
+                return true;
+            }
+        }
+        fprintf(stderr, "%s; the checkpoint after episode %ld is stepped over\n", why, number);
+        number = newest_checkpoint(name, number, error);
+    }
+    return fail_with(error, "%.200s: holds no checkpoint that is good", name);
+}
+
+/* Adds to what is there, or begins with nothing. */
+static bool go_on_with_table(run_folder *folder, int64_t end, char error[ERROR_LENGTH]) {
+    char name[FILES_PATH_LENGTH];
+    if (!files_join(name, folder->path, table_name, error)) {
+        return false;
+    }
+    if (end == 0) {
+        return (remove(name) == 0 || errno == ENOENT || files_fail(error, name)) && begin_table(folder, error);
+    }
+    return episode_table_go_on(&folder->episodes, name, end, error);
+}
+
+static bool go_on_with_recording(run_folder *folder, recording_place end, char error[ERROR_LENGTH]) {
+    char name[FILES_PATH_LENGTH];
+    return end.bytes == 0 ? begin_recording(folder, error)
+                          : files_join(name, folder->path, recording_name, error) &&
+                                recording_go_on(&folder->recording, name, end, error);
+}
+
+bool run_folder_resume(run_folder *folder, const char *path, const run_folder_place *place, char error[ERROR_LENGTH]) {
+    return enter(folder, path, error) && go_on_with_table(folder, place->table, error) &&
+           go_on_with_recording(folder, place->recording, error);
+}
+
+run_folder_place run_folder_here(const run_folder *folder, int32_t episodes) {
+    return (run_folder_place){.episodes = episodes,
+                              .table = folder->episodes == NULL ? 0 : (int64_t)ftello(folder->episodes),
+                              .recording = recording_end(&folder->recording)};
+}
+
+bool run_folder_cut(run_folder *folder, const run_folder_place *place, char error[ERROR_LENGTH]) {
+    return (folder->episodes == NULL || files_cut(folder->episodes, table_name, place->table, error)) &&
+           recording_cut(&folder->recording, place->recording, error);
+}
+
+bool run_folder_episode(run_folder *folder, const limphome_episode_t *episode, char error[ERROR_LENGTH]) {
+    return folder->episodes == NULL || episode_table_add(folder->episodes, episode, error);
 }
 
 static bool write_encoded(const char *folder, const char *name, const unsigned char *bytes, int size,
                           char error[ERROR_LENGTH]) {
-    char path[RUN_FOLDER_PATH_LENGTH];
-    return join(path, folder, name, error) &&
+    char path[FILES_PATH_LENGTH];
+    return files_join(path, folder, name, error) &&
            (size > 0 || fail_with(error, "%.200s: does not fit %d bytes", path, LARGEST_FILE)) &&
-           replace_file(path, bytes, (size_t)size, error);
+           files_replace(path, bytes, (size_t)size, error);
 }
 
 bool run_folder_policy(const run_folder *folder, const learned *l, char error[ERROR_LENGTH]) {
     unsigned char bytes[LARGEST_FILE];
     return folder->path[0] == '\0' ||
-           write_encoded(folder->path, "policy.lcm", bytes, learned_encode_policy(l, bytes, sizeof bytes), error);
+           write_encoded(folder->path, policy_name, bytes, learned_encode_policy(l, bytes, sizeof bytes), error);
 }
 
-bool run_folder_checkpoint(const run_folder *folder, const learned *l, char error[ERROR_LENGTH]) {
+bool run_folder_checkpoint(run_folder *folder, const learned *l, char error[ERROR_LENGTH]) {
     char name[40];
     unsigned char bytes[LARGEST_FILE];
-    snprintf(name, sizeof name, "checkpoint/episode_%06d.lcm", learned_episode(l));
-    return folder->path[0] == '\0' ||
+    if (folder->path[0] == '\0') {
+        return true;
+    }
+    snprintf(name, sizeof name, "%s/episode_%06" PRId32 ".lcm", checkpoint_folder, learned_episode(l));
+    return files_sync(folder->episodes, table_name, error) && recording_flush(&folder->recording, error) &&
            write_encoded(folder->path, name, bytes, learned_encode_checkpoint(l, bytes, sizeof bytes), error);
 }
 
-bool run_folder_close(run_folder *folder, char error[ERROR_LENGTH]) {
-    const bool good = folder->episodes == NULL || fclose(folder->episodes) == 0;
+static bool close_table(run_folder *folder, char error[ERROR_LENGTH]) {
+    if (folder->episodes == NULL) {
+        return true;
+    }
+    const bool synced = files_sync(folder->episodes, table_name, error);
+    const bool closed = fclose(folder->episodes) == 0 || files_fail(error, table_name);
     folder->episodes = NULL;
-    return good || fail_by_system(error, "episodes.csv");
+    return synced && closed;
+}
+
+bool run_folder_close(run_folder *folder, char error[ERROR_LENGTH]) {
+    const bool whole = close_table(folder, error);
+    const bool recorded = recording_close(&folder->recording, error);
+    if (folder->lock >= 0) {
+        close(folder->lock);
+        folder->lock = -1;
+    }
+    return whole && recorded;
 }
 
 bool run_folder_read_policy(const char *path, learned *l, char error[ERROR_LENGTH]) {
     unsigned char bytes[LARGEST_FILE];
-    const long size = read_file(path, bytes, error);
-    if (size < 0) {
+    size_t size;
+    if (!files_read(path, bytes, sizeof bytes, &size, error)) {
         return false;
     }
-    const message_verdict verdict = learned_decode_policy(bytes, (size_t)size, l);
+    const message_verdict verdict = learned_decode_policy(bytes, size, l);
     return verdict == MESSAGE_GOOD || fail_with(error, "%.200s: %s", path, message_verdict_text(verdict));
 }

@@ -1,7 +1,5 @@
 """The messages of a run: what each channel carries, and the recording."""
 
-import lcm
-
 from limphome import (
     decision_t,
     episode_t,
@@ -14,6 +12,7 @@ from limphome import (
     velocity_command_t,
 )
 from limphome_lab.channels import COMMAND, DECISION, EPISODE, PLANNER, POLICY, RESET, STATE, STATUS, TRUTH
+from limphome_lab.recording import read_log
 
 TYPES = {
     STATE: robot_state_t,
@@ -28,18 +27,6 @@ TYPES = {
 }
 
 OUTCOMES = {episode_t.GOAL: "goal", episode_t.TUMBLE: "tumble", episode_t.TIMEOUT: "timeout"}
-
-
-def read_log(path, begin=0):
-    """Yields (channel, encoded message) of a recording in the order they were written, from byte `begin` on."""
-    log = lcm.EventLog(str(path), "r")
-    try:
-        if begin > 0:
-            log.seek(begin)
-        for event in log:
-            yield event.channel, event.data
-    finally:
-        log.close()
 
 
 def recorded(path, *channels):

@@ -2,20 +2,18 @@
 
 import configparser
 import csv
+import re
 import shutil
 import subprocess
+import sys
 import time
 from dataclasses import dataclass, fields
 from pathlib import Path
 
-from limphome_lab import paths
-from limphome_lab.ending import Ending
+from limphome_lab import files, lock, paths
+from limphome_lab.ending import InputError
 
-
-class InputError(Ending):
-    """Something the user gave is wrong; nothing has been started."""
-
-    exit_code = 2
+CHECKPOINT = re.compile(r"episode_\d{6,}\.lcm")
 
 
 @dataclass
@@ -53,19 +51,36 @@ class RunFolder:
         self.messages = self.path / "messages.lcmlog"
         self.manifest = self.path / "manifest.json"
         self.figures = self.path / "figures"
+        self.lock = self.path / "lock"  # of run/lock.py
+
+    def take(self):
+        """Takes the folder for this process until it ends; InputError where another works there."""
+        self._held = lock.take(self.lock)
+
+    def others(self):
+        """All that lies there but the lock."""
+        return [file for file in self.path.iterdir() if file != self.lock]
 
     def settings(self):
-        parser = configparser.ConfigParser()
-        parser.read_string(self.config.read_text())
-        return parser
+        return parse_settings(self.config.read_text(errors="replace"), self.config)
+
+    def checkpoint_files(self):
+        """The oldest first; whatever else lies there is none."""
+        files = [file for file in self.checkpoints.iterdir() if CHECKPOINT.fullmatch(file.name)]
+        return sorted(files, key=lambda file: int(file.stem.removeprefix("episode_")))
 
     def read_episodes(self):
         return EpisodeTail(self.episodes).read_new()
 
-    def newest_checkpoint(self):
-        """Episode after which the newest checkpoint was taken; 0 where there is none."""
-        files = self.checkpoints.glob("episode_*.lcm")
-        return max((int(file.stem.removeprefix("episode_")) for file in files), default=0)
+
+def parse_settings(text, source):
+    """The configparser of an INI file as the controller has resolved it; InputError where somebody changed it since."""
+    parser = configparser.ConfigParser()
+    try:
+        parser.read_string(text, str(source))
+    except configparser.Error as error:
+        raise InputError(str(error)) from error
+    return parser
 
 
 class EpisodeTail:
@@ -86,11 +101,17 @@ class EpisodeTail:
         except FileNotFoundError:
             return []
         complete = text[: text.rfind(b"\n") + 1]
-        lines = complete.decode().splitlines()
+        lines = complete.decode(errors="replace").splitlines()
         if self._offset == 0 and lines:
             _check_header(self.path, lines.pop(0))
         self._offset += len(complete)
-        return [Episode.from_row(row) for row in csv.reader(lines)]
+        return [self._episode(row) for row in csv.reader(lines)]
+
+    def _episode(self, row):
+        try:
+            return Episode.from_row(row)
+        except ValueError as error:
+            raise InputError(f"{self.path}: {','.join(row)!r} is no row of an episode: {error}") from error
 
 
 def _check_header(path, header):
@@ -104,20 +125,35 @@ def existing(path, *needed):
     folder = RunFolder(path)
     for name in ("config", "robot", *needed):
         file = getattr(folder, name)
-        if not file.exists():
-            raise InputError(f"{path}: not a run folder that can be used here: {file.name} is missing")
+        try:
+            file.stat()
+        except FileNotFoundError:
+            raise InputError(f"{path}: not a run folder that can be used here: {file.name} is missing") from None
+        except OSError as error:
+            raise InputError(f"{path}: not a run folder that can be used here: {error.strerror}") from error
     return folder
 
 
-def resolve_settings(config, assignments):
-    """Text of an INI file with every setting, checked by the controller. Raises InputError with its words."""
-    command = [paths.program("controller"), "--config", config, "--print-settings"]
-    for assignment in assignments:
-        command += ["--set", assignment]
-    result = subprocess.run(command, capture_output=True, text=True)
+def ask(program, *options):
+    """What a program prints that ends at once. Raises InputError with its words where it refuses what it is given."""
+    command = [paths.program(program), *map(str, options)]
+    # file names need not be UTF-8
+    result = subprocess.run(command, capture_output=True, text=True, errors="surrogateescape")
     if result.returncode != 0:
         raise InputError(result.stderr.strip())
+    if result.stderr:
+        print(result.stderr, end="", file=sys.stderr)
     return result.stdout
+
+
+def setting_options(config, assignments):
+    """Options of both programs."""
+    return ["--config", config, *(word for assignment in assignments for word in ("--set", assignment))]
+
+
+def resolve_settings(config, assignments):
+    """Text of an INI file with every setting, checked by the controller."""
+    return ask("controller", *setting_options(config, assignments), "--print-settings")
 
 
 def find_robot(robot):
@@ -126,24 +162,47 @@ def find_robot(robot):
     return own if Path(robot).name == str(robot) and not Path(robot).exists() and own.is_file() else Path(robot)
 
 
-def create(out, config, robot, assignments):
-    """Makes a run folder with its inputs: config.ini as resolved and robot.urdf. `out` None: a new one below runs/."""
-    resolved = resolve_settings(config, assignments)
+def create(out, config, robot, assignments, controller_options=(), anew=False):
+    """Makes a run folder with its inputs, config.ini as resolved and robot.urdf, and takes it for this process. `out`
+    None: a new one below runs/. With `anew`, what an earlier run left there is removed.
+
+    Both programs read all of them before, with `controller_options`, so that what is bad leaves no folder behind."""
     robot = find_robot(robot)
-    if not Path(robot).is_file():
-        raise InputError(f"{robot}: cannot be opened: no such file")
+    resolved = resolve_settings(config, assignments)
+    options = [*setting_options(config, assignments), "--robot", robot, "--check"]
+    ask("controller", *options, *controller_options)
+    ask("simulator", *options)
     if out is None:
-        parser = configparser.ConfigParser()
-        parser.read_string(resolved)
-        seed = parser["learning"]["seed"]
+        seed = parse_settings(resolved, config)["learning"]["seed"]
         out = paths.RUNS / f"{Path(config).stem}-seed{seed}-{time.strftime('%Y%m%d-%H%M%S')}"
     folder = RunFolder(out)
-    if folder.path.exists() and (not folder.path.is_dir() or any(folder.path.iterdir())):
-        raise InputError(f"{out}: exists and is not an empty folder; give another, or go on with it by --resume")
     try:
-        folder.path.mkdir(parents=True, exist_ok=True)
-        folder.config.write_text(resolved)
-        shutil.copyfile(robot, folder.robot)
+        _take_empty(folder, out, anew)
+        _write_inputs(folder, resolved, Path(robot).read_bytes())
     except OSError as error:
         raise InputError(f"{out}: cannot be made a run folder: {error.strerror}") from error
     return folder
+
+
+def _write_inputs(folder, config, robot):
+    """Both, or neither."""
+    try:
+        files.replace(folder.config, config)
+        files.replace(folder.robot, robot)
+    except OSError:
+        folder.config.unlink(missing_ok=True)
+        raise
+
+
+def _take_empty(folder, out, anew):
+    """Makes the folder, if need be, and takes it; what is there, unless it may be removed, is left as it is."""
+    taken = f"{out}: exists and is not an empty folder; give another, or go on with it by --resume"
+    if folder.path.exists() and not (folder.path.is_dir() and (anew or not folder.others())):
+        raise InputError(taken)
+    folder.path.mkdir(parents=True, exist_ok=True)
+    folder.take()
+    others = folder.others()
+    if others and not anew:
+        raise InputError(taken)
+    for file in others:
+        shutil.rmtree(file) if file.is_dir() and not file.is_symlink() else file.unlink()

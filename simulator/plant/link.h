@@ -4,7 +4,6 @@
 
 #include <settings.h>
 
-#include <lcm/lcm-cpp.hpp>
 #include <limphome/ground_truth_t.hpp>
 #include <limphome/reset_request_t.hpp>
 #include <limphome/robot_state_t.hpp>
@@ -12,6 +11,8 @@
 #include <limphome/velocity_command_t.hpp>
 #include <optional>
 #include <string>
+
+#include "plant/bus.h"
 
 namespace limphome {
 
@@ -51,14 +52,14 @@ class Link {
     const status_t &counts() const { return counts_; }
     double wait_time() const { return wait_time_; }
     // For what else the program has to say or hear.
-    lcm::LCM &bus() { return lcm_; }
+    Bus &bus() { return lcm_; }
 
    private:
     void receive_command(const lcm::ReceiveBuffer *buffer, const std::string &channel);
     void receive_reset(const lcm::ReceiveBuffer *buffer, const std::string &channel);
     bool accept_sender(int64_t sender);
 
-    lcm::LCM lcm_;
+    Bus lcm_;
     const bool lockstep_;
     const double resend_;          // [s]
     const double sender_timeout_;  // [s]

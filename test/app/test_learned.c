@@ -75,6 +75,40 @@ START_TEST(a_checkpoint_gives_back_all_that_was_learned) {
 }
 END_TEST
 
+/* Of a planner's, which is long, bits all over it. */
+START_TEST(a_bit_that_has_turned_is_refused) {
+    save_learned(_i);
+    static unsigned char bytes[LEARNED_LARGEST];
+    static learned decoded;
+    for (int policy = 0; policy < 2; policy++) {
+        const int size = policy ? learned_encode_policy(&message, bytes, sizeof bytes)
+                                : learned_encode_checkpoint(&message, bytes, sizeof bytes);
+        const int step = _i == LH_PLANNER ? 509 : 1;
+        for (int bit = 0; bit < 8 * size; bit += step) {
+            bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
+            const message_verdict verdict = policy ? learned_decode_policy(bytes, (size_t)size, &decoded)
+                                                   : learned_decode_checkpoint(bytes, (size_t)size, &decoded);
+            ck_assert_msg(verdict != MESSAGE_GOOD, "bit %d of %d", bit, 8 * size);
+            bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
+        }
+        ck_assert_int_eq(policy ? learned_decode_policy(bytes, (size_t)size, &decoded)
+                                : learned_decode_checkpoint(bytes, (size_t)size, &decoded),
+                         MESSAGE_GOOD);
+    }
+}
+END_TEST
+
+/* A policy can be taken out of its checkpoint. */
+START_TEST(the_policy_in_a_checkpoint_is_sealed_too) {
+    save_learned(_i);
+    static unsigned char bytes[LEARNED_LARGEST];
+    static learned decoded;
+    const int size = _i == LH_PLANNER ? limphome_planner_t_encode(bytes, 0, sizeof bytes, &message.as.planner.planner)
+                                      : limphome_policy_t_encode(bytes, 0, sizeof bytes, &message.as.q_learning.policy);
+    ck_assert_int_eq(learned_decode_policy(bytes, (size_t)size, &decoded), MESSAGE_GOOD);
+}
+END_TEST
+
 /* The least that the steps above must have taught, or the test above would not mean much. */
 START_TEST(a_planner_has_measured_something) {
     save_learned(LH_PLANNER);
@@ -186,6 +220,8 @@ END_TEST
 int main(void) {
     TCase *cases = tcase_create("learned");
     tcase_add_loop_test(cases, a_checkpoint_gives_back_all_that_was_learned, 0, KINDS);
+    tcase_add_loop_test(cases, a_bit_that_has_turned_is_refused, 0, KINDS);
+    tcase_add_loop_test(cases, the_policy_in_a_checkpoint_is_sealed_too, 0, KINDS);
     tcase_add_test(cases, a_planner_has_measured_something);
     tcase_add_test(cases, limits_that_acted_are_counted_on);
     tcase_add_loop_test(cases, a_policy_is_what_it_takes_to_use_it, 0, KINDS);

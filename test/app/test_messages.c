@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "checksum.h"
 #include "messages.h"
 #include "suite.h"
 
@@ -43,6 +44,7 @@ static message_verdict judge_planner(const limphome_planner_t *planner, int surp
     static unsigned char bytes[SIZE];
     static limphome_planner_t decoded;
     const int size = limphome_planner_t_encode(bytes, 0, SIZE, planner);
+    checksum_seal(bytes, size);
     return message_decode_planner(bytes, (size_t)size + (size_t)surplus, &decoded);
 }
 
@@ -52,6 +54,7 @@ static message_verdict judge_planner_checkpoint(const limphome_planner_t *planne
     checkpoint.planner = *planner;
     checkpoint.episode = episode;
     const int size = limphome_planner_checkpoint_t_encode(bytes, 0, SIZE, &checkpoint);
+    checksum_seal(bytes, size);
     return message_decode_planner_checkpoint(bytes, (size_t)size + (size_t)surplus, &decoded);
 }
 
@@ -65,6 +68,7 @@ static message_verdict judge_state(const limphome_robot_state_t *state, int surp
 static message_verdict judge_policy(const limphome_policy_t *policy, int surplus) {
     unsigned char bytes[SIZE] = {0};
     const int size = limphome_policy_t_encode(bytes, 0, SIZE, policy);
+    checksum_seal(bytes, size);
     limphome_policy_t decoded;
     return message_decode_policy(bytes, (size_t)size + (size_t)surplus, &decoded);
 }

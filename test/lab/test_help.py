@@ -13,6 +13,7 @@ SCRIPTS = (
     "bench",
     "diagnose",
     "evaluate",
+    "faults",
     "launch",
     "plot",
     "results",

@@ -1,5 +1,6 @@
 """However a run ends, no process stays behind and what is left can be used."""
 
+import json
 import os
 import signal
 import time
@@ -68,3 +69,69 @@ def test_program_that_dies_is_told(running, name):
     assert process.returncode == 1
     assert f"limphome-{name} ended early (signal SIGKILL)" in errors
     assert processes_that_mention(folder.path) == []
+
+
+@pytest.mark.fault(
+    "a program hangs",
+    injected="SIGSTOP",
+    expected="train says within 20 s which process it is and how; the run goes on after SIGCONT",
+)
+@pytest.mark.parametrize("name", ["simulator", "controller"])
+def test_program_that_is_stopped_is_told(running, observe, name):
+    process, folder = running
+    pid = program_of(folder, name)
+    began = time.monotonic()
+    os.kill(pid, signal.SIGSTOP)
+    while "no progress" not in (line := process.stderr.readline()):
+        assert line
+    told_after = time.monotonic() - began
+    assert line.endswith(f"limphome-{name} is stopped by a signal; SIGCONT lets it go on\n")
+    os.kill(pid, signal.SIGCONT)
+    assert process.wait(TIME_LIMIT_S) == 0
+    observe(f"told after {told_after:.0f} s: {line.strip()}")
+
+
+@pytest.mark.fault(
+    "a program that was stopped is to end",
+    injected="SIGSTOP of both programs, then Ctrl-C",
+    expected="both end, within the time that they are given to end cleanly",
+)
+def test_programs_that_are_stopped_end(running, observe):
+    process, folder = running
+    for name in ("simulator", "controller"):
+        os.kill(program_of(folder, name), signal.SIGSTOP)
+    os.killpg(process.pid, signal.SIGINT)
+    process.communicate(timeout=TIME_LIMIT_S)
+    assert process.returncode == 130
+    assert processes_that_mention(folder.path) == []
+    observe("exit code 130, nothing left behind")
+
+
+@pytest.mark.fault(
+    "the terminal is closed",
+    injected="SIGHUP",
+    expected="both programs end cleanly, manifest and policy are written",
+)
+def test_hang_up(running, observe):
+    process, folder = running
+    os.killpg(process.pid, signal.SIGHUP)
+    _, errors = process.communicate(timeout=TIME_LIMIT_S)
+    assert process.returncode == 129 and "Traceback" not in errors
+    assert processes_that_mention(folder.path) == []
+    assert json.loads(folder.manifest.read_text())["result"] == "interrupted" and folder.policy.exists()
+    observe("exit code 129, manifest says interrupted")
+
+
+@pytest.mark.fault("a run under nohup", injected="SIGHUP ignored from the start, then sent", expected="it goes on")
+def test_hang_up_is_ignored_where_it_was_from_the_start(tmp_path, observe):
+    folder = RunFolder(tmp_path / "run")
+    process = start_script(
+        "train",
+        *("--config", SMOKE, "--out", folder.path, "--quiet", "--no-figures"),
+        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN),
+    )
+    wait_until(process, lambda: len(folder.read_episodes()) >= 3)
+    os.killpg(process.pid, signal.SIGHUP)
+    assert process.wait(TIME_LIMIT_S) == 0, process.communicate()[1]
+    assert len(folder.read_episodes()) == 30
+    observe("30 episodes, exit code 0")

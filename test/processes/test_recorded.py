@@ -20,6 +20,11 @@ def has_fused_multiply_add():
     return platform.machine() == "x86_64" and " fma " in Path("/proc/cpuinfo").read_text()
 
 
+def learned_fields(policy):
+    """Of an encoded policy, without what tells of the message alone: the type's fingerprint, and the checksum."""
+    return policy[8:-4]
+
+
 @pytest.mark.skipif(not has_fused_multiply_add(), reason="recorded on x86-64 with FMA")
 @pytest.mark.parametrize("experiment", RECORDED)
 def test_what_is_learned_is_what_was_recorded(experiment, tmp_path):
@@ -35,5 +40,9 @@ def test_what_is_learned_is_what_was_recorded(experiment, tmp_path):
         tmp_path / "run",
         "--quiet",
     )
-    found = {name: hashlib.sha256((tmp_path / "run" / name).read_bytes()).hexdigest() for name in RECORDED[experiment]}
+    contents = {
+        "policy.lcm": learned_fields((tmp_path / "run" / "policy.lcm").read_bytes()),
+        "episodes.csv": (tmp_path / "run" / "episodes.csv").read_bytes(),
+    }
+    found = {name: hashlib.sha256(content).hexdigest() for name, content in contents.items()}
     assert found == RECORDED[experiment]

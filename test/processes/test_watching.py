@@ -16,6 +16,7 @@ from limphome_lab.channels import DECISION, STATE
 from limphome_lab.ending import Ending
 from limphome_lab.messages import recorded
 from limphome_lab.runfolder import RunFolder
+from limphome_lab.sealed import seal
 
 
 def test_evaluation_is_greedy_and_repeatable(smoke_run):
@@ -96,7 +97,7 @@ def test_evaluation_beyond_the_last_episode_is_refused(smoke_run, tmp_path):
     copy = RunFolder(tmp_path / "run")
     policy = policy_t.decode(copy.policy.read_bytes())
     policy.episode = 10**9 - 1
-    copy.policy.write_bytes(policy.encode())
+    copy.policy.write_bytes(seal(policy))
     result = run_script("evaluate", copy.path, "--episodes", 2, check=False)
     assert result.returncode == 2 and "is of episode 999999999, beyond what can be counted" in result.stderr
 

@@ -7,16 +7,14 @@ one origin, unit by unit, so that their parameters have a mean; in it these chan
 from copy import copy
 
 from limphome_lab.runfolder import InputError
+from limphome_lab.sealed import unseal
 
 
 def read_policy(file):
     """The network in a checkpoint."""
     from limphome import checkpoint_t  # LCM is there once all is set up, and --help before
 
-    try:
-        checkpoint = checkpoint_t.decode(file.read_bytes())
-    except ValueError as error:
-        raise InputError(f"{file}: is no checkpoint of this version") from error
+    checkpoint = unseal(checkpoint_t, file.read_bytes(), file)
     if checkpoint.learner != checkpoint_t.Q_LEARNING:
         raise InputError(f"{file}: there is no network in it that could be averaged")
     return checkpoint.policy
@@ -27,7 +25,7 @@ def average_policy(folder, count):
     learner = folder.settings().get("learner", "kind", fallback="q_learning")
     if learner != "q_learning":
         raise InputError(f"--average: {folder.path} is of a {learner}; only networks of Q-learning have a mean")
-    files = sorted(folder.checkpoints.glob("episode_*.lcm"))[-count:]
+    files = folder.checkpoint_files()[-count:]
     if not 1 <= count == len(files):
         raise InputError(f"--average {count}: must be from 1 to the number of checkpoints in {folder.checkpoints}")
     policies = [read_policy(file) for file in files]

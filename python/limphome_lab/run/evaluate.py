@@ -1,15 +1,15 @@
 """Command evaluate: drives with the policy of a run, without learning."""
 
 import json
-import shutil
 import sys
 
-from limphome_lab import command, network, runfolder
+from limphome_lab import command, files, network, runfolder
 from limphome_lab.ending import with_exit_code
 from limphome_lab.run.average import average_policy
 from limphome_lab.run.manifest import Part, begin_manifest, write_manifest
 from limphome_lab.run.pair import Pair
 from limphome_lab.run.processes import raise_on_signals
+from limphome_lab.sealed import seal
 from limphome_lab.show.progress import Progress
 from limphome_lab.show.summary import summarise, table
 
@@ -51,11 +51,14 @@ def parse_arguments():
 
 def evaluation_folder(trained, assignments, out=None):
     """`out`, or RUN/evaluation/, which holds nothing but what an earlier evaluation left and is made anew."""
-    if out is None:
-        runfolder.resolve_settings(trained.config, assignments)  # refused before the earlier evaluation is removed
-        out = trained.path / "evaluation"
-        shutil.rmtree(out, ignore_errors=True)
-    return runfolder.create(out, trained.config, trained.robot, assignments)
+    return runfolder.create(
+        trained.path / "evaluation" if out is None else out,
+        trained.config,
+        trained.robot,
+        assignments,
+        ["--evaluate", trained.policy],
+        anew=out is None,
+    )
 
 
 def evaluate(folder, policy, url):
@@ -81,11 +84,11 @@ def main():
     url = network.enter(args.network)
     raise_on_signals()
     trained = runfolder.existing(args.run, "policy")
-    average = None if args.average is None else average_policy(trained, args.average).encode()
+    average = None if args.average is None else seal(average_policy(trained, args.average))
     settings = [f"learning.episodes={args.episodes}", f"evaluation.selection={args.selection}"]
     folder = evaluation_folder(trained, [*settings, "simulator.pace=lockstep", *args.set], args.out)
     if average is not None:
-        folder.policy.write_bytes(average)
+        files.replace(folder.policy, average)
     summary = evaluate(folder, trained.policy if average is None else folder.policy, url)
     print(json.dumps(summary, indent=2) if args.json else table(summary))
     return 0

@@ -14,7 +14,8 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from limphome_lab import paths
+from limphome_lab import files, paths
+from limphome_lab.ending import InputError
 
 
 class Part:
@@ -22,13 +23,12 @@ class Part:
 
     def __init__(self, folder):
         self.folder = folder
-        self.before = last_statuses(folder.messages)
         self.started = time.strftime("%Y-%m-%dT%H:%M:%S%z")
         self._began = time.monotonic()
 
-    def measure(self, result, simulated_s):
+    def measure(self, result, simulated_s, restarts=()):
         """Call when both processes have ended. `result`: finished, interrupted or failed; `simulated_s`: duration of
-        all episodes done."""
+        all episodes done; `restarts`: of a pair that was supervised."""
         self.wall_time_s = time.monotonic() - self._began
         part = {
             "started": self.started,
@@ -37,27 +37,27 @@ class Part:
             "wall_time_s": round(self.wall_time_s, 3),
             "simulated_time_s": simulated_s,
         }
-        statuses = last_statuses(self.folder.messages)
-        new = [
-            statuses[process]
-            for process in PROCESSES
-            if process in statuses and not _equal(statuses[process], self.before.get(process))
-        ]
-        return part | measures(*new) if len(new) == 2 else part
+        if restarts:
+            part["restarts"] = list(restarts)
+        statuses, torn_at = last_statuses(self.folder.messages, self._began)
+        if torn_at is not None:
+            part["recording_torn_at"] = torn_at
+        return part | measures(*statuses) if len(statuses) == 2 else part
 
 
-def _equal(status, other):
-    return other is not None and status.encode() == other.encode()
-
-
-def last_statuses(recording):
-    """The last status_t of each process in a recording, by its name in PROCESSES, where there is one."""
+def last_statuses(recording, since):
+    """The last status_t of plant and controller in a recording, where they have told one `since` [s, monotonic]; and
+    the byte at which it is torn, None if it is not."""
     from limphome_lab.messages import STATUS, recorded, status_t  # lcm is there once all is set up, and --help before
+    from limphome_lab.recording import TornRecording
 
-    if not recording.exists():
-        return {}
-    names = dict(zip((status_t.PLANT, status_t.CONTROLLER), PROCESSES, strict=True))
-    return {names[status.process]: status for _, status in recorded(recording, STATUS) if status.process in names}
+    last, torn_at = {}, None
+    try:
+        if recording.exists():
+            last = {status.process: status for _, status in recorded(recording, STATUS) if status.utime >= since * 1e6}
+    except TornRecording as torn:
+        torn_at = torn.offset
+    return [last[process] for process in (status_t.PLANT, status_t.CONTROLLER) if process in last], torn_at
 
 
 def measures(plant, controller):
@@ -123,12 +123,21 @@ COUNTERS = (
 
 def begin_manifest(folder, config, programs=PROCESSES):
     """Notes the name of the experiment, before anything has run."""
-    folder.manifest.write_text(json.dumps({"config": config, "programs": programs, "parts": []}) + "\n")
+    files.replace(folder.manifest, json.dumps({"config": config, "programs": programs, "parts": []}) + "\n")
+
+
+def read_manifest(folder):
+    """InputError where somebody changed it."""
+    try:
+        begun = json.loads(folder.manifest.read_text())
+        return {key: begun[key] for key in ("config", "programs", "parts")}
+    except (ValueError, KeyError, TypeError) as error:
+        raise InputError(f"{folder.manifest}: is no manifest of a run") from error
 
 
 def write_manifest(folder, part):
     """Adds a part to manifest.json and brings all else in it up to date."""
-    begun = json.loads(folder.manifest.read_text())
+    begun = read_manifest(folder)
     parts = begun["parts"] + [part]
     episodes = folder.read_episodes()
     manifest = {
@@ -140,6 +149,8 @@ def write_manifest(folder, part):
         "result": part["result"],
         "episodes": len(episodes),
         "outcomes": dict(Counter(episode.outcome for episode in episodes)),
+        "recording_bytes": folder.messages.stat().st_size if folder.messages.exists() else 0,
+        "restarts": sum(len(each.get("restarts", ())) for each in parts),
         "wall_time_s": round(sum(each["wall_time_s"] for each in parts), 3),
         **totals(parts),
         "versions": versions(),
@@ -147,7 +158,7 @@ def write_manifest(folder, part):
         "machine": {"os": os_name(), "kernel": platform.release(), "cpu": cpu_name(), "cores": os.cpu_count()},
         "parts": parts,
     }
-    folder.manifest.write_text(json.dumps(manifest, indent=2) + "\n")
+    files.replace(folder.manifest, json.dumps(manifest, indent=2) + "\n")
 
 
 def as_dict(settings):

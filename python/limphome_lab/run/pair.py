@@ -1,14 +1,17 @@
 """Simulator and controller as two processes on one network, from start to clean end."""
 
 import signal
+import sys
 import time
 
 from limphome_lab import paths, registry
 from limphome_lab.ending import Ending
-from limphome_lab.run.processes import Child
+from limphome_lab.run.processes import ToldChild
+from limphome_lab.run.watch import Watch
 
 POLL_S = 0.05
 BAD_INPUT = 2  # exit code of both programs, as of the scripts, for what the user gave
+MOST_RESTARTS = 10  # without an episode more than there have been
 
 
 class PairFailed(Ending):
@@ -16,11 +19,15 @@ class PairFailed(Ending):
 
     def __init__(self, child):
         code = child.exit_code()
-        how = f"exit code {code}" if code >= 0 else f"signal {signal.Signals(-code).name}"
         super().__init__(
-            f"limphome-{child.name} ended early ({how}); the end of {paths.shown(child.log)}:\n{child.log_tail()}"
+            f"limphome-{child.name} ended early ({how_it_ended(code)}); the end of {paths.shown(child.log)}:\n"
+            f"{child.log_tail()}"
         )
         self.exit_code = BAD_INPUT if code == BAD_INPUT else 1
+
+
+def how_it_ended(code):
+    return f"exit code {code}" if code >= 0 else f"signal {signal.Signals(-code).name}"
 
 
 class Pair:
@@ -30,19 +37,23 @@ class Pair:
         self.folder = folder
         self.url = url
         self.controller_options = [str(option) for option in controller_options]
+        self.watch = Watch(url)
+        self.restarts = []  # {"process", "ended", "after_episode"}, where it is supervised
 
     def __enter__(self):
-        common = ["--config", self.folder.config, "--robot", self.folder.robot, "--lcm-url", self.url]
         self.entry = registry.register(self.folder.path, self.url)
         self.children = []
-        self.simulator = self._start("simulator", [paths.program("simulator"), *common])
-        self.controller = self._start(
-            "controller", [paths.program("controller"), *common, "--out", self.folder.path, *self.controller_options]
-        )
+        try:
+            self.simulator = self._start("simulator")
+            self.controller = self._start("controller", "--out", self.folder.path, *self.controller_options)
+        except BaseException:
+            self.__exit__()
+            raise
         return self
 
-    def _start(self, name, command):
-        child = Child(name, command, self.folder.path / f"{name}.log")
+    def _start(self, name, *options):
+        common = ["--config", self.folder.config, "--robot", self.folder.robot, "--lcm-url", self.url]
+        child = ToldChild(name, [paths.program(name), *common, *options], self.folder.path / f"{name}.log")
         self.children.append(child)
         return child
 
@@ -59,21 +70,67 @@ class Pair:
             return True
         for child in (self.simulator, self.controller):
             if child.exit_code() is not None:
-                raise PairFailed(child)
+                self.failed(child)
         return False
+
+    def failed(self, child):
+        raise PairFailed(child)
 
     def run(self, tail, progress):
         """Waits for all episodes, showing those that `tail` reads on `progress`; then ends the simulator."""
         try:
             while not self.finished():
-                progress.update(tail.read_new())
+                episodes = tail.read_new()
+                progress.update(episodes)
+                self.look(episodes)
                 time.sleep(POLL_S)
             self.end()
         finally:
             progress.update(tail.read_new())
             progress.close()
 
+    def look(self, episodes):
+        """Call often, with the episodes that have ended since; says so where a process is stuck."""
+        if episodes:
+            self.watch.progressed()
+        self.watch.look([self.simulator, self.controller])
+
     def end(self):
         """After the controller has finished: ends the simulator, which must go without complaint."""
         if self.simulator.stop() != 0:
             raise PairFailed(self.simulator)
+
+
+class SupervisedPair(Pair):
+    """A pair in which a process that has died is started again. A new controller goes on from the newest checkpoint;
+    with a new plant the controller rolls back by itself to where the plant was last reset. It gives up where one dies
+    again and again without an episode more, and where what the user gave is bad."""
+
+    def __enter__(self):
+        self._farthest = self._fruitless = 0
+        return super().__enter__()
+
+    def look(self, episodes):
+        farthest = max((episode.episode for episode in episodes), default=0)
+        if farthest > self._farthest:
+            self._farthest, self._fruitless = farthest, 0
+        super().look(episodes)
+
+    def end(self):
+        self.simulator.stop()  # however it ends: all that was asked for is there
+
+    def failed(self, child):
+        code = child.exit_code()
+        self._fruitless += 1
+        if code == BAD_INPUT or self._fruitless > MOST_RESTARTS:
+            raise PairFailed(child)
+        how = how_it_ended(code)
+        self.restarts.append({"process": child.name, "ended": how, "after_episode": self._farthest})
+        print(f"limphome-{child.name} ended early ({how}) and is started again", file=sys.stderr)
+        self.children.remove(child)
+        if child is self.simulator:
+            self.simulator = self._start("simulator")
+            self.children.reverse()  # it is the controller that ends first
+        else:
+            options = [option for option in self.controller_options if option != "--resume"]
+            self.controller = self._start("controller", "--out", self.folder.path, "--resume", *options)

@@ -1,16 +1,21 @@
 """Child processes that never outlive this one, each with its output in a log file."""
 
+import contextlib
 import ctypes
+import os
 import signal
 import subprocess
+import weakref
 
 from limphome_lab.ending import Ending
 
 PR_SET_PDEATHSIG = 1
 GRACE_S = 10.0  # to end cleanly after a signal, before the next, harder one
 LOG_TAIL = 15  # lines
+TAIL_LENGTH = 8192  # [bytes] of a program's last words that are kept
 
 _libc = ctypes.CDLL(None, use_errno=True)
+_children = weakref.WeakSet()
 
 
 class Interrupted(Ending):
@@ -22,8 +27,11 @@ class Interrupted(Ending):
 
 
 def raise_on_signals():
-    """Makes SIGINT, SIGTERM and SIGHUP raise Interrupted, once: the clean-up that follows is not interrupted again."""
-    signals = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    """Makes SIGINT, SIGTERM and SIGHUP raise Interrupted, once: the clean-up that follows is not interrupted again.
+    SIGHUP stays ignored where it was from the start (nohup). Ctrl-Z stops the children too, until fg."""
+    signals = [signal.SIGINT, signal.SIGTERM]
+    if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:
+        signals.append(signal.SIGHUP)
 
     def handler(signum, _frame):
         for each in signals:
@@ -32,24 +40,42 @@ def raise_on_signals():
 
     for each in signals:
         signal.signal(each, handler)
+    signal.signal(signal.SIGTSTP, _pause)
+
+
+def _pause(_signum, _frame):
+    """Stops the children and then this process, which stands here until it is let go on."""
+    _signal_all(signal.SIGSTOP)
+    os.kill(os.getpid(), signal.SIGSTOP)
+    _signal_all(signal.SIGCONT)
+
+
+def _signal_all(signum):
+    for child in _children:
+        child.process.send_signal(signum)  # nothing where it has ended
 
 
 class Child:
-    """One of the two programs, running."""
+    """A program, running; what it prints goes to the file `log`."""
 
     def __init__(self, name, command, log):
         self.name = name
         self.log = log
-        # a session of its own: Ctrl-C in the terminal reaches this process alone, which ends its children in order
         with open(log, "ab") as output:
-            self.process = subprocess.Popen(
-                command,
-                stdin=subprocess.DEVNULL,
-                stdout=output,
-                stderr=subprocess.STDOUT,
-                start_new_session=True,
-                preexec_fn=_prepare,
-            )
+            self._start(command, output)
+
+    def _start(self, command, output):
+        # a session of its own: Ctrl-C in the terminal reaches this process alone, which ends its children in order
+        self.process = subprocess.Popen(
+            command,
+            bufsize=0,
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+            preexec_fn=_prepare,
+        )
+        _children.add(self)
 
     def exit_code(self):
         """None while it runs; negative where a signal ended it."""
@@ -61,6 +87,7 @@ class Child:
             if self.exit_code() is not None:
                 break
             self.process.send_signal(signum)
+            self.process.send_signal(signal.SIGCONT)  # one that is stopped would not take notice
             try:
                 self.process.wait(GRACE_S)
             except subprocess.TimeoutExpired:
@@ -68,8 +95,37 @@ class Child:
         return self.process.wait()
 
     def log_tail(self):
-        lines = self.log.read_text(errors="replace").splitlines()
-        return "\n".join(lines[-LOG_TAIL:])
+        return _last_lines(self.log.read_text(errors="replace"))
+
+
+class ToldChild(Child):
+    """A program whose last words are known even where the disk is too full for its log. Look at it often."""
+
+    def __init__(self, name, command, log):
+        self.name = name
+        self.log = log
+        self._tail = b""
+        self._start(command, subprocess.PIPE)
+        os.set_blocking(self.process.stdout.fileno(), False)
+
+    def exit_code(self):
+        code = super().exit_code()
+        while told := self.process.stdout.read(TAIL_LENGTH):
+            self._tail = (self._tail + told)[-TAIL_LENGTH:]
+            with contextlib.suppress(OSError), open(self.log, "ab") as log:
+                log.write(told)
+        return code
+
+    def stop(self, first=signal.SIGTERM):
+        super().stop(first)
+        return self.exit_code()
+
+    def log_tail(self):
+        return _last_lines(self._tail.decode(errors="replace"))
+
+
+def _last_lines(text):
+    return "\n".join(text.splitlines()[-LOG_TAIL:])
 
 
 def _prepare():

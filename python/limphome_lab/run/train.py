@@ -3,13 +3,15 @@
 import sys
 from pathlib import Path
 
-from limphome_lab import command, network, paths, runfolder
-from limphome_lab.ending import with_exit_code
-from limphome_lab.run.manifest import Part, begin_manifest, write_manifest
-from limphome_lab.run.pair import Pair, PairFailed
+from limphome_lab import command, files, network, paths, runfolder
+from limphome_lab.ending import Ending, told, with_exit_code
+from limphome_lab.run.manifest import Part, begin_manifest, read_manifest, write_manifest
+from limphome_lab.run.pair import Pair, SupervisedPair
 from limphome_lab.run.processes import Interrupted, raise_on_signals
 from limphome_lab.show import diagnose
 from limphome_lab.show.progress import Progress, clock
+
+LARGE_RECORDING = 100_000_000  # [bytes]; its size is told
 
 
 def parse_arguments():
@@ -28,6 +30,9 @@ def parse_arguments():
         choices=("private", "host"),
         default="private",
         help="a network namespace of its own (default), or a port of its own on the host's network",
+    )
+    parser.add_argument(
+        "--supervise", action="store_true", help="start simulator or controller again when it dies, and go on"
     )
     parser.add_argument("--no-figures", dest="figures", action="store_false", help="draw none; plot does it later")
     parser.add_argument("--quiet", action="store_true", help="no progress")
@@ -50,23 +55,40 @@ def new_folder(args):
 
 
 def resumed_folder(args):
-    folder = runfolder.existing(args.resume, "manifest", "episodes", "checkpoints")
-    done = folder.newest_checkpoint()
-    if done == 0:
-        raise runfolder.InputError(f"{args.resume}: holds no checkpoint to go on from")
+    """(folder, episode after which it is gone on with)"""
+    folder = runfolder.existing(args.resume, "manifest")
+    folder.take()
+    read_manifest(folder)
+    settings = [] if args.episodes is None else [f"learning.episodes={args.episodes}"]
+    done = resumes_after(folder, settings)
     if args.episodes is not None:
-        settings = runfolder.resolve_settings(folder.config, [f"learning.episodes={args.episodes}"])
         if args.episodes < done:
             raise runfolder.InputError(f"--episodes {args.episodes}: {args.resume} has {done} already")
-        folder.config.write_text(settings)
-    return folder
+        files.replace(folder.config, runfolder.resolve_settings(folder.config, settings))
+    return folder, done
 
 
-def train(folder, url, progress, resume):
+def resumes_after(folder, settings=()):
+    """Episode after which the controller would go on; 0: it would begin anew."""
+    options = runfolder.setting_options(folder.config, settings)
+    answer = runfolder.ask(
+        "controller",
+        *options,
+        "--robot",
+        folder.robot,
+        "--out",
+        folder.path,
+        "--resume",
+        "--check",
+    )
+    return int(answer.split()[-1])
+
+
+def train(pair, folder, progress):
     """Runs the pair to its end; what it raises is why it did not get there."""
     tail = runfolder.EpisodeTail(folder.episodes)
     tail.read_new()  # of a resumed run, told before
-    with Pair(folder, url, ["--resume"] if resume else []) as pair:
+    with pair:
         pair.run(tail, progress)
 
 
@@ -75,23 +97,21 @@ def main():
     args = parse_arguments()
     url = network.enter(args.network)
     raise_on_signals()
-    folder = resumed_folder(args) if args.resume else new_folder(args)
+    folder, done = resumed_folder(args) if args.resume else (new_folder(args), 0)
     part = Part(folder)
     print(f"training in {paths.shown(folder.path)}", file=sys.stderr)
-    total = int(folder.settings()["learning"]["episodes"])
-    progress = Progress(total, done=folder.newest_checkpoint() if args.resume else 0, quiet=args.quiet)
+    progress = Progress(int(folder.settings()["learning"]["episodes"]), done, quiet=args.quiet)
+    pair = (SupervisedPair if args.supervise else Pair)(folder, url, ["--resume"] if args.resume else [])
     result, code = "finished", 0
     try:
-        train(folder, url, progress, bool(args.resume))
-    except Interrupted as interrupted:
-        result, code = "interrupted", interrupted.exit_code
-        print(how_to_go_on(folder), file=sys.stderr)
-    except PairFailed as failure:
-        result, code = "failed", failure.exit_code
-        print(failure, file=sys.stderr)
-    write_manifest(folder, part.measure(result, progress.simulated_s))
-    if args.figures:
-        draw(folder)
+        train(pair, folder, progress)
+    except Ending as ending:
+        result, code = "interrupted" if isinstance(ending, Interrupted) else "failed", ending.exit_code
+        print(ending if str(ending) else how_to_go_on(folder), file=sys.stderr)
+    except OSError as error:
+        result, code = "failed", 1
+        print(told(error), file=sys.stderr)
+    tell_end(args, folder, part.measure(result, progress.simulated_s, pair.restarts))
     if code == 0:
         print(f"done in {clock(part.wall_time_s)}: {paths.shown(folder.path)}", file=sys.stderr)
         if trouble := diagnose.in_a_line(folder):
@@ -99,12 +119,26 @@ def main():
     return code
 
 
+def tell_end(args, folder, part):
+    """Manifest and figures, also of a run that did not get to its end."""
+    write_manifest(folder, part)
+    size = folder.messages.stat().st_size if folder.messages.exists() else 0
+    if size >= LARGE_RECORDING:
+        print(f"{paths.shown(folder.messages)} has {size / 1e6:.0f} MB", file=sys.stderr)
+    if args.figures:
+        try:
+            draw(folder)
+        except Ending as ending:  # what was cut off cannot be drawn before it is gone on with
+            if part["result"] == "finished":
+                raise
+            print(ending, file=sys.stderr)
+
+
 def how_to_go_on(folder):
-    checkpoint = folder.newest_checkpoint()
-    if checkpoint == 0:
-        return "interrupted before the first checkpoint: it cannot be resumed"
-    return (
-        f"interrupted; {command.called('train')} --resume {paths.shown(folder.path)} goes on from episode {checkpoint}"
+    again = f"{command.called('train')} --resume {paths.shown(folder.path)}"
+    done = resumes_after(folder)
+    return f"interrupted; {again} " + (
+        f"goes on from episode {done}" if done else "begins anew: no checkpoint was reached"
     )
 
 

@@ -64,7 +64,8 @@ def _recorded_end(folder, episodes):
 def _recorded(path, begin):
     """([(episode_t, states, decisions)], [status_t]) from byte `begin` of a recording on: of one episode more than the
     last ones, the first of which may have begun before, with states and decisions encoded."""
-    from limphome_lab.messages import DECISION, EPISODE, STATE, STATUS, TYPES, read_log
+    from limphome_lab.messages import DECISION, EPISODE, STATE, STATUS, TYPES
+    from limphome_lab.recording import read_log
 
     ended = deque(maxlen=learned.WINDOW + 1)
     statuses, states, decisions = [], [], []

@@ -19,16 +19,17 @@ def clock(seconds):
 
 
 class Progress:
-    """Feed it rows of episodes.csv as they come; those up to episode `done` are of an earlier part of the run.
+    """Feed it rows of episodes.csv as they come; those up to episode `done` are of an earlier part of the run,
+    and those told before are passed over.
 
     It counts the rows, as those of an evaluation are numbered on from the training's."""
 
-    def __init__(self, total, done=0, quiet=False, stream=sys.stderr):
+    def __init__(self, total, done=0, quiet=False, stream=None):
         self.total = total
         self.earlier = self.done = done
         self.quiet = quiet
-        self.stream = stream
-        self.live = stream.isatty()
+        self.stream = stream or sys.stderr
+        self.live = self.stream.isatty()
         self.began = time.monotonic()
         self.simulated_s = 0.0
         self.recent = deque(maxlen=RECENT)  # (episode, wall time at which it was seen)
@@ -39,6 +40,7 @@ class Progress:
         for episode in episodes:
             if episode.episode <= self.earlier:
                 continue
+            self.earlier = episode.episode  # a table that was cut back is read anew
             self.done += 1
             self.simulated_s += episode.duration_s
             self.recent.append((episode, now))

@@ -124,7 +124,7 @@ class Controller {
         statuses.push_back(*status);
     }
 
-    lcm::LCM &bus_;
+    Bus &bus_;
 };
 
 // A plant with its controller.

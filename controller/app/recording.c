@@ -1,0 +1,143 @@
+#include "recording.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <string.h>
+#include <time.h>
+
+#include "learned.h"
+#include "limphome_channels.h"
+#include "limphome_episode_t.h"
+
+/* An event as LCM writes it: sync word, number, time [us], length of channel and data, all big-endian; then those two.
+ */
+enum { HEADER = 28, AT_CHANNEL_LENGTH = 20, AT_DATA_LENGTH = 24, CHANNEL_LENGTH = 64 };
+static const uint32_t sync_word = 0xEDA1DA01;
+
+typedef struct event {
+    char channel[CHANNEL_LENGTH];
+    int size;
+    unsigned char data[LEARNED_LARGEST];
+} event;
+
+static uint32_t read_word(const unsigned char *bytes) {
+    return (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 | bytes[3];
+}
+
+/* Reads the next event. False at the end of the file and where what follows is not a whole event. */
+static bool read_event(FILE *file, event *e) {
+    unsigned char header[HEADER];
+    if (fread(header, 1, HEADER, file) != HEADER || read_word(header) != sync_word) {
+        return false;
+    }
+    const uint32_t channel = read_word(header + AT_CHANNEL_LENGTH), size = read_word(header + AT_DATA_LENGTH);
+    if (channel >= CHANNEL_LENGTH || size > sizeof e->data || fread(e->channel, 1, channel, file) != channel ||
+        fread(e->data, 1, size, file) != size) {
+        return false;
+    }
+    e->channel[channel] = '\0';
+    e->size = (int)size;
+    return true;
+}
+
+/* The episode whose end, or what was learned up to it, the event tells of; -1 for another event. */
+static int32_t episode_told(const event *e) {
+    learned policy;
+    limphome_episode_t episode;
+    if (strcmp(e->channel, LIMPHOME_CHANNEL_EPISODE) == 0) {
+        return limphome_episode_t_decode(e->data, 0, e->size, &episode) == e->size ? episode.episode : -1;
+    }
+    if (strcmp(e->channel, LIMPHOME_CHANNEL_POLICY) == 0 || strcmp(e->channel, LIMPHOME_CHANNEL_PLANNER) == 0) {
+        return learned_decode_policy(e->data, (size_t)e->size, &policy) == MESSAGE_GOOD ? learned_episode(&policy) : -1;
+    }
+    return -1;
+}
+
+bool recording_find(const char *path, int32_t episodes, recording_place *end, char error[ERROR_LENGTH]) {
+    event e;
+    FILE *file = fopen(path, "rb");
+    if (file == NULL) {
+        return files_fail(error, path);
+    }
+    bool found = false;
+    recording_place at = {0, 0};
+    while (read_event(file, &e)) {
+        at.bytes = (int64_t)ftello(file);
+        at.events++;
+        if (episode_told(&e) == episodes) {
+            *end = at;
+            found = true;
+        }
+    }
+    fclose(file);
+    return found ||
+           fail_with(error, "%.200s: is whole up to byte %" PRId64 " only, without the end of episode %" PRId32, path,
+                     at.bytes, episodes);
+}
+
+static bool open_log(recording *r, const char *path, const char *mode, char error[ERROR_LENGTH]) {
+    *r = (recording){.log = lcm_eventlog_create(path, mode)};
+    snprintf(r->path, sizeof r->path, "%s", path);
+    return r->log != NULL || files_fail(error, path);
+}
+
+bool recording_create(recording *r, const char *path, char error[ERROR_LENGTH]) {
+    return open_log(r, path, "w", error);
+}
+
+bool recording_go_on(recording *r, const char *path, recording_place end, char error[ERROR_LENGTH]) {
+    return open_log(r, path, "a", error) && recording_cut(r, end, error);
+}
+
+void recording_add(recording *r, const char *channel, void *data, int size) {
+    if (r->log == NULL || r->error[0] != '\0') {
+        return;
+    }
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    char name[CHANNEL_LENGTH];
+    snprintf(name, sizeof name, "%s", channel);
+    lcm_eventlog_event_t e = {
+        .timestamp = (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000,
+        .channellen = (int32_t)strlen(name),
+        .datalen = size,
+        .channel = name,
+        .data = data,
+    };
+    if (lcm_eventlog_write_event(r->log, &e) != 0) {
+        files_fail(r->error, r->path);
+    }
+}
+
+recording_place recording_end(const recording *r) {
+    return r->log == NULL ? (recording_place){0, 0} : (recording_place){(int64_t)ftello(r->log->f), r->log->eventcount};
+}
+
+bool recording_cut(recording *r, recording_place end, char error[ERROR_LENGTH]) {
+    if (r->log == NULL) {
+        return true;
+    }
+    r->log->eventcount = end.events;
+    return files_cut(r->log->f, r->path, end.bytes, error);
+}
+
+bool recording_good(const recording *r, char error[ERROR_LENGTH]) {
+    return r->error[0] == '\0' || fail_with(error, "%s", r->error);
+}
+
+bool recording_flush(recording *r, char error[ERROR_LENGTH]) {
+    if (r->error[0] == '\0' && r->log != NULL && fflush(r->log->f) != 0) {
+        files_fail(r->error, r->path);
+    }
+    return recording_good(r, error);
+}
+
+bool recording_close(recording *r, char error[ERROR_LENGTH]) {
+    if (r->log == NULL) {
+        return true;
+    }
+    const bool good = recording_flush(r, error) && files_sync(r->log->f, r->path, error);
+    lcm_eventlog_destroy(r->log);
+    r->log = NULL;
+    return good;
+}

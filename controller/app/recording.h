@@ -1,0 +1,56 @@
+/* messages.lcmlog: an LCM event log of what a run takes and sends. It ends where its writer ended, in the middle of an
+ * event if that was killed or the disk was full; going on begins by cutting it to what belongs to the episodes that are
+ * kept. */
+#ifndef LIMPHOME_APP_RECORDING_H
+#define LIMPHOME_APP_RECORDING_H
+
+#include <lcm/eventlog.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "fail.h"
+#include "files.h"
+
+typedef struct recording {
+    lcm_eventlog_t *log; /* NULL: nothing is recorded */
+    char path[FILES_PATH_LENGTH];
+    char error[ERROR_LENGTH]; /* why an event could not be written; "" while all were */
+} recording;
+
+/* A place between two events. */
+typedef struct recording_place {
+    int64_t bytes;  /* before it */
+    int64_t events; /* before it */
+} recording_place;
+
+/* All that return bool do so with the reason in `error`. */
+
+/* Begins a new file; one that is there is lost. */
+bool recording_create(recording *r, const char *path, char error[ERROR_LENGTH]);
+
+/* Where that ends which belongs to the first `episodes` episodes: behind the last message that tells of the end of that
+ * episode or of what was learned up to it. False if an event before is not whole, or there is none. */
+bool recording_find(const char *path, int32_t episodes, recording_place *end, char error[ERROR_LENGTH]);
+
+/* Opens a file to add to what it holds before `end`. */
+bool recording_go_on(recording *r, const char *path, recording_place end, char error[ERROR_LENGTH]);
+
+/* Adds a message, under the wall-clock time as lcm-logger would. */
+void recording_add(recording *r, const char *channel, void *data, int size);
+
+/* Where the next event comes to lie. */
+recording_place recording_end(const recording *r);
+
+/* Drops what lies behind `end`. */
+bool recording_cut(recording *r, recording_place end, char error[ERROR_LENGTH]);
+
+/* False if an event could not be written so far. */
+bool recording_good(const recording *r, char error[ERROR_LENGTH]);
+
+/* Hands all events to the system. False if that fails, or an event could not be written before. */
+bool recording_flush(recording *r, char error[ERROR_LENGTH]);
+
+/* Brings it to the disk and closes it. */
+bool recording_close(recording *r, char error[ERROR_LENGTH]);
+
+#endif

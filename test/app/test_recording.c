@@ -1,0 +1,168 @@
+/* The recording: wherever it was torn, it is cut to whole events of whole episodes. */
+#include <lcm/eventlog.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "limphome_channels.h"
+#include "limphome_episode_t.h"
+#include "recording.h"
+#include "suite.h"
+
+enum { EPISODES = 3 };
+
+static char folder[64];
+static char path[96];
+static char error[ERROR_LENGTH]; /* of the newest failure */
+
+static void make_folder(void) {
+    error[0] = '\0';
+    snprintf(folder, sizeof folder, "/tmp/limphome_recording_XXXXXX");
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/messages.lcmlog", folder);
+}
+
+static void remove_folder(void) {
+    unlink(path);
+    ck_assert_int_eq(rmdir(folder), 0);
+}
+
+static int64_t file_size(void) {
+    struct stat found;
+    ck_assert_int_eq(stat(path, &found), 0);
+    return (int64_t)found.st_size;
+}
+
+/* Each episode is a few bytes of some other channel and the message that it has ended. */
+static void add_episode(recording *r, int32_t number) {
+    unsigned char bytes[1024] = "a state";
+    recording_add(r, LIMPHOME_CHANNEL_STATE, bytes, 7);
+    const limphome_episode_t episode = {.episode = number};
+    recording_add(r, LIMPHOME_CHANNEL_EPISODE, bytes, limphome_episode_t_encode(bytes, 0, sizeof bytes, &episode));
+}
+
+/* Writes a recording of whole episodes; ends[n] is where episode n ends. */
+static void write_recording(int64_t ends[EPISODES + 1]) {
+    recording r;
+    ck_assert(recording_create(&r, path, error));
+    ends[0] = 0;
+    for (int32_t i = 1; i <= EPISODES; i++) {
+        add_episode(&r, i);
+        ends[i] = recording_end(&r).bytes;
+    }
+    ck_assert(recording_close(&r, error));
+    ck_assert_int_eq(file_size(), ends[EPISODES]);
+}
+
+/* As a program that knows LCM alone reads it. */
+static int count_events(void) {
+    lcm_eventlog_t *log = lcm_eventlog_create(path, "r");
+    int events = 0;
+    for (lcm_eventlog_event_t *e; (e = lcm_eventlog_read_next_event(log)) != NULL; events++) {
+        ck_assert_int_eq(e->eventnum, events);
+        lcm_eventlog_free_event(e);
+    }
+    lcm_eventlog_destroy(log);
+    return events;
+}
+
+START_TEST(an_episode_is_found_where_the_file_is_whole_up_to_its_end) {
+    int64_t ends[EPISODES + 1];
+    write_recording(ends);
+    for (int64_t length = ends[EPISODES]; length >= 0; length--) {
+        ck_assert_int_eq(truncate(path, (off_t)length), 0);
+        for (int32_t i = 1; i <= EPISODES; i++) {
+            recording_place end = {-1, -1};
+            error[0] = '\0';
+            ck_assert(recording_find(path, i, &end, error) == (length >= ends[i]));
+            if (length >= ends[i]) {
+                ck_assert_int_eq(end.bytes, ends[i]);
+                ck_assert_int_eq(end.events, (int64_t)2 * i);
+            } else {
+                ck_assert_ptr_nonnull(strstr(error, "is whole up to byte"));
+            }
+        }
+    }
+}
+END_TEST
+
+/* Nothing behind a byte that is wrong is trusted, whole though it looks. */
+START_TEST(an_event_that_is_damaged_ends_it) {
+    int64_t ends[EPISODES + 1];
+    write_recording(ends);
+    FILE *file = fopen(path, "r+");
+    ck_assert_int_eq(fseek(file, (long)ends[1], SEEK_SET), 0);
+    fputc(0, file); /* of the sync word of the second episode's first event */
+    fclose(file);
+    recording_place end;
+    ck_assert(recording_find(path, 1, &end, error));
+    ck_assert(!recording_find(path, 2, &end, error));
+    ck_assert(!recording_find(path, EPISODES, &end, error));
+}
+END_TEST
+
+START_TEST(going_on_leaves_no_trace_of_the_tear) {
+    int64_t ends[EPISODES + 1];
+    write_recording(ends);
+    ck_assert_int_eq(truncate(path, (off_t)ends[2] + 50), 0);
+    recording_place end;
+    ck_assert(recording_find(path, 2, &end, error));
+    recording r;
+    ck_assert(recording_go_on(&r, path, end, error));
+    add_episode(&r, 3);
+    ck_assert(recording_close(&r, error));
+    ck_assert_int_eq(file_size(), ends[EPISODES]);
+    ck_assert_int_eq(count_events(), 2 * EPISODES);
+}
+END_TEST
+
+START_TEST(a_running_one_is_cut_back) {
+    recording r;
+    ck_assert(recording_create(&r, path, error));
+    add_episode(&r, 1);
+    const recording_place place = recording_end(&r);
+    add_episode(&r, 2);
+    add_episode(&r, 3);
+    ck_assert(recording_cut(&r, place, error));
+    ck_assert_int_eq(recording_end(&r).bytes, place.bytes);
+    add_episode(&r, 2);
+    ck_assert(recording_close(&r, error));
+    ck_assert_int_eq(file_size(), (int64_t)2 * place.bytes);
+    ck_assert_int_eq(count_events(), 4);
+}
+END_TEST
+
+START_TEST(a_full_disk_is_told) {
+    recording r;
+    ck_assert(recording_create(&r, "/dev/full", error));
+    for (int32_t i = 1; i < 1000; i++) {
+        add_episode(&r, i);
+    }
+    ck_assert(!recording_good(&r, error));
+    ck_assert_str_eq(error, "/dev/full: No space left on device");
+    ck_assert(!recording_close(&r, error));
+    fclose(fopen(path, "w"));
+}
+END_TEST
+
+START_TEST(nothing_is_recorded_without_a_file) {
+    recording r = {.log = NULL};
+    add_episode(&r, 1);
+    ck_assert(recording_cut(&r, recording_end(&r), error) && recording_flush(&r, error) && recording_close(&r, error));
+    fclose(fopen(path, "w"));
+}
+END_TEST
+
+int main(void) {
+    TCase *cases = tcase_create("recording");
+    tcase_add_checked_fixture(cases, make_folder, remove_folder);
+    tcase_add_test(cases, an_episode_is_found_where_the_file_is_whole_up_to_its_end);
+    tcase_add_test(cases, an_event_that_is_damaged_ends_it);
+    tcase_add_test(cases, going_on_leaves_no_trace_of_the_tear);
+    tcase_add_test(cases, a_running_one_is_cut_back);
+    tcase_add_test(cases, a_full_disk_is_told);
+    tcase_add_test(cases, nothing_is_recorded_without_a_file);
+    return run_suite("recording", cases);
+}
