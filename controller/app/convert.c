@@ -85,6 +85,20 @@ static lh_planner_config convert_planner(const settings *s) {
     };
 }
 
+static lh_monitor_config convert_monitor(const settings *s) {
+    lh_monitor_config config = lh_monitor_config_default();
+    config.active = s->safety.monitor == SETTINGS_MONITOR_ON;
+    config.period = (float)s->episode.decision_period_s;
+    config.crawler.speed = (float)s->safety.crawler_speed;
+    config.crawler.acceleration = (float)s->safety.crawler_acceleration;
+    config.joint.speed = (float)s->safety.joint_speed;
+    config.joint.acceleration = (float)s->safety.joint_acceleration;
+    config.stop_clearance = (float)s->safety.stop_clearance_rad;
+    config.margin_floor = (float)s->safety.margin_floor_m;
+    config.tilt = (float)s->safety.tilt_rad;
+    return config;
+}
+
 static lh_learner_kind convert_learner_kind(int64_t kind) {
     switch ((enum settings_learner)kind) {
         case SETTINGS_Q_LEARNING:
@@ -102,6 +116,7 @@ lh_config convert_config(const settings *s) {
     config.learner.seed = (uint64_t)s->learning.seed;
     config.learner.q_learning = convert_q_learning(s);
     config.learner.planner = convert_planner(s);
+    config.monitor = convert_monitor(s);
     return config;
 }
 
@@ -117,6 +132,7 @@ lh_state convert_state(const limphome_robot_state_t *message) {
     for (int i = 0; i < message->num_actuators && i < LH_MAX_ACTUATORS; i++) {
         state.actuator_position[i] = (float)message->actuator_position[i];
         state.actuator_effort[i] = (float)message->actuator_effort[i];
+        state.actuator_failed[i] = (int8_t)(message->actuator_health[i] == LIMPHOME_ROBOT_STATE_T_FAILED);
     }
     return state;
 }
@@ -131,6 +147,19 @@ lh_controlled convert_controlled(const limphome_robot_state_t *message) {
     return controlled;
 }
 
+/* The bits of a hazard are told as they are. */
+#define SAME_HAZARD(name) _Static_assert(LH_HAZARD_##name == LIMPHOME_DECISION_T_##name, "decision_t." #name)
+SAME_HAZARD(INVALID);
+SAME_HAZARD(STALE);
+SAME_HAZARD(JUMP);
+SAME_HAZARD(TILT);
+SAME_HAZARD(MARGIN);
+SAME_HAZARD(SPEED);
+SAME_HAZARD(ACCELERATION);
+SAME_HAZARD(STOP);
+SAME_HAZARD(FAILED);
+SAME_HAZARD(STUCK);
+
 /* So that a new one is told here and in convert_episode. */
 _Static_assert(sizeof(lh_reward) == 4 * sizeof(float), "decision_t and episode_t tell four terms of the reward");
 
@@ -144,7 +173,10 @@ limphome_decision_t convert_decision(const lh_controller *c, const lh_decision *
         .episode = seen->episode,
         .step = seen->step,
         .num_inputs = seen->num_inputs,
-        .action = d->choice.action,
+        .action = d->intervention.action,
+        .proposed_action = d->choice.action,
+        .interventions = (int32_t)d->intervention.hazards,
+        .stilled = (int32_t)d->intervention.stilled,
         .q = d->choice.q,
         .q_max = d->choice.q_max,
         .probability = d->choice.probability,
@@ -163,7 +195,7 @@ limphome_decision_t convert_decision(const lh_controller *c, const lh_decision *
     };
     memcpy(message.inputs, seen->inputs, sizeof seen->inputs);
     if (!seen->reset) {
-        lh_action_inputs(d->choice.action, c->task.controlled.count, message.inputs + seen->num_inputs);
+        lh_action_inputs(d->intervention.action, c->task.controlled.count, message.inputs + seen->num_inputs);
         message.num_inputs += c->task.controlled.count;
     }
     return message;
@@ -213,6 +245,8 @@ limphome_episode_t convert_episode(const lh_controller *c, const lh_summary *s, 
 void convert_limits(const lh_controller *c, limphome_status_t *status) {
     status->clamped_inputs = (int64_t)c->task.clamped.inputs;
     status->clamped_margins = (int64_t)c->task.clamped.margins;
+    status->interventions = (int64_t)c->monitor.counts.decisions;
+    status->stilled_actuators = (int64_t)c->monitor.counts.actuators;
     switch (c->learner.kind) {
         case LH_Q_LEARNING: {
             const lh_q_learning *learner = &c->learner.as.q_learning;

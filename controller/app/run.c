@@ -152,10 +152,13 @@ static void hold(run *r, const limphome_robot_state_t *state) {
     r->gap = true;
 }
 
-/* One call of the library; false if it refuses the state. Then the robot holds still; the next state may be better. */
-static bool step(run *r, const limphome_robot_state_t *state, lh_decision *decision) {
+/* One call of the library. If it refuses the state the robot holds still; the next one may be better. */
+static void step(run *r, const limphome_robot_state_t *state, lh_decision *decision) {
     if (r->gap) {
         lh_controller_gap(&r->controller);
+    }
+    if (state->lockstep == 0) { /* a plant in real time is watched, whatever the settings say */
+        lh_controller_guard(&r->controller);
     }
     const lh_state sensed = convert_state(state);
     const lh_error error = lh_controller_step(&r->controller, &sensed, decision);
@@ -163,16 +166,15 @@ static bool step(run *r, const limphome_robot_state_t *state, lh_decision *decis
     if (error != LH_OK) {
         r->link.invalid = bus_now();
         notice_print(&r->invalid, bus_now(), "state %" PRId64 ": %s; holding still", state->seq, lh_error_text(error));
-        return false;
+    } else {
+        trouble_useful(&r->trouble, true, bus_now());
     }
-    trouble_useful(&r->trouble, true, bus_now());
-    return true;
 }
 
 /* Decides on a new state and answers it. The command goes out first: the plant works on while we write the rest. */
 static void decide(run *r, const limphome_robot_state_t *state) {
     lh_decision decision = {.velocity = {0}};
-    const bool decided = step(r, state, &decision);
+    step(r, state, &decision);
     const lh_observed *observed = &decision.observed;
     const bool ended = observed->outcome != LH_OUTCOME_NONE;
     const bool last = ended && observed->summary.number >= r->last;
@@ -184,10 +186,8 @@ static void decide(run *r, const limphome_robot_state_t *state) {
     bus_record_state(&r->link.bus, state);
     r->decisions++;
     r->utime = state->utime;
-    if (decided) {
-        const limphome_decision_t message = convert_decision(&r->controller, &decision, state);
-        bus_send_decision(&r->link.bus, &message);
-    }
+    const limphome_decision_t message = convert_decision(&r->controller, &decision, state);
+    bus_send_decision(&r->link.bus, &message);
     if (ended) {
         finish_episode(r, &observed->summary, state);
     }

@@ -6,12 +6,16 @@ lh_config lh_config_default(void) {
     return (lh_config){
         .task = lh_task_config_default(),
         .learner = lh_learner_config_default(),
+        .monitor = lh_monitor_config_default(),
     };
 }
 
 lh_error lh_config_validate(const lh_config *config) {
     lh_error error = lh_task_config_validate(&config->task);
-    return error == LH_OK ? lh_learner_config_validate(&config->learner) : error;
+    if (error == LH_OK) {
+        error = lh_learner_config_validate(&config->learner);
+    }
+    return error == LH_OK ? lh_monitor_config_validate(&config->monitor) : error;
 }
 
 lh_error lh_controller_init(lh_controller *controller, const lh_config *config, const lh_robot *robot,
@@ -20,7 +24,16 @@ lh_error lh_controller_init(lh_controller *controller, const lh_config *config, 
     if (error == LH_OK) {
         error = lh_task_init(&controller->task, &config->task, robot, controlled);
     }
-    return error == LH_OK ? lh_learner_init(&controller->learner, &config->learner, &controller->task) : error;
+    if (error == LH_OK) {
+        error = lh_learner_init(&controller->learner, &config->learner, &controller->task);
+    }
+    if (error == LH_OK) {
+        lh_monitor_init(&controller->monitor, &config->monitor);
+        if (config->monitor.active) {
+            lh_controller_guard(controller);
+        }
+    }
+    return error;
 }
 
 lh_error lh_controller_restore(lh_controller *controller, const lh_learned *learned, int32_t episode) {
@@ -30,6 +43,7 @@ lh_error lh_controller_restore(lh_controller *controller, const lh_learned *lear
     lh_error error = lh_learner_restore(&controller->learner, learned);
     if (error == LH_OK) {
         lh_task_begin(&controller->task, episode);
+        lh_monitor_begin(&controller->monitor);
     }
     return error;
 }
@@ -37,29 +51,77 @@ lh_error lh_controller_restore(lh_controller *controller, const lh_learned *lear
 void lh_controller_begin(lh_controller *controller) {
     lh_task_begin(&controller->task, controller->task.episode.number);
     lh_learner_begin(&controller->learner);
+    lh_monitor_begin(&controller->monitor);
 }
 
 void lh_controller_resume(lh_controller *controller, int32_t episode) {
     lh_task_resume(&controller->task, episode);
     lh_learner_begin(&controller->learner);
+    lh_monitor_begin(&controller->monitor);
 }
 
 void lh_controller_gap(lh_controller *controller) {
     lh_task_gap(&controller->task);
+    lh_monitor_gap(&controller->monitor);
+}
+
+void lh_controller_guard(lh_controller *controller) {
+    lh_monitor_config *config = &controller->monitor.config;
+    config->active = true;
+    lh_learner_keep_clear(&controller->learner,
+                          controller->task.config.joint_speed * config->period + config->stop_clearance);
+}
+
+/* Nothing is taken from the state. */
+static void hold(lh_controller *controller, lh_hazard hazard, lh_decision *decision) {
+    const lh_task *task = &controller->task;
+    memset(decision, 0, sizeof *decision);
+    decision->observed.episode = task->episode.number;
+    decision->observed.step = task->episode.steps;
+    decision->observed.num_inputs = task->controlled.count + 2;
+    lh_monitor_hold(&controller->monitor, task, hazard, &decision->intervention, decision->velocity);
+    decision->choice.action = decision->intervention.action;
+    lh_controller_gap(controller);
+}
+
+void lh_controller_hold(lh_controller *controller, lh_decision *decision) {
+    hold(controller, LH_HAZARD_STALE, decision);
+}
+
+/* The last word: what is chosen, or what the monitor leaves of it. */
+static void execute(lh_controller *controller, const lh_state *state, lh_decision *decision) {
+    int32_t chosen = decision->choice.action;
+    decision->intervention.action = chosen;
+    lh_task_velocities(&controller->task, chosen, decision->velocity);
+    if (controller->monitor.config.active) {
+        lh_monitor_check(&controller->monitor, &controller->task, state, decision->observed.attitude, chosen,
+                         &decision->intervention, decision->velocity);
+        if (decision->intervention.action != chosen) {
+            lh_learner_executed(&controller->learner, decision->intervention.action);
+        }
+    }
 }
 
 lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh_decision *decision) {
-    lh_error error = lh_task_observe(&controller->task, state, &decision->observed);
+    lh_error error = lh_state_validate(state, &controller->task.robot);
     if (error != LH_OK) {
+        hold(controller, LH_HAZARD_INVALID, decision);
         return error;
     }
+    lh_monitor *monitor = &controller->monitor;
+    if (monitor->config.active && !lh_monitor_believes(monitor, &controller->task.robot, state)) {
+        hold(controller, LH_HAZARD_JUMP, decision);
+        return LH_OK;
+    }
+    lh_task_observe(&controller->task, state, &decision->observed);
     lh_learner_step(&controller->learner, &decision->observed, &decision->choice);
+    memset(&decision->intervention, 0, sizeof decision->intervention);
     memset(decision->velocity, 0, sizeof decision->velocity);
     if (decision->observed.reset) {
         lh_learner_begin(&controller->learner);
+        lh_monitor_begin(monitor);
     } else {
-        lh_task_velocities(&controller->task, decision->choice.action, decision->velocity);
+        execute(controller, state, decision);
     }
-    /* Here, last, is the place of whatever may still take away from the velocities, such as a safety monitor. */
     return LH_OK;
 }

@@ -16,6 +16,7 @@
 #include <stdint.h>
 
 #include "limphome/learning/learner.h"
+#include "limphome/safety/monitor.h"
 #include "limphome/task/task.h"
 
 #ifdef __cplusplus
@@ -25,21 +26,24 @@ extern "C" {
 typedef struct lh_config {
     lh_task_config task;
     lh_learner_config learner;
+    lh_monitor_config monitor;
 } lh_config;
 
-/* What one call saw, learned and chose. */
+/* What one call saw, learned, chose and executes. */
 typedef struct lh_decision {
-    lh_observed observed;             /* by the task */
-    lh_choice choice;                 /* of the learner */
+    lh_observed observed;             /* by the task; where the robot is held for its state, episode and step alone */
+    lh_choice choice;                 /* of the learner, as it was proposed */
+    lh_intervention intervention;     /* of the monitor, and the action that is executed; all 0 with reset */
     float velocity[LH_MAX_ACTUATORS]; /* [robot.num_actuators], m/s or rad/s; 0 where not controlled, and with reset */
 } lh_decision;
 
 typedef struct lh_controller {
     lh_task task;
     lh_learner learner;
+    lh_monitor monitor;
 } lh_controller;
 
-/* The paper's values, learning, with Boltzmann selection. */
+/* The paper's values, learning, with Boltzmann selection, without the monitor. */
 lh_config lh_config_default(void);
 
 /* LH_OK, or the error of the first bad field. */
@@ -55,8 +59,15 @@ lh_error lh_controller_init(lh_controller *controller, const lh_config *config, 
  * changed. */
 lh_error lh_controller_restore(lh_controller *controller, const lh_learned *learned, int32_t episode);
 
-/* One decision. LH_ERROR_STATE, and nothing changed, if the state is not valid: hold still and call again. */
+/* One decision. With LH_ERROR_STATE the state is not valid: the decision holds the robot still, and the step under way
+ * is forgotten, as with a state that the monitor does not believe. */
 lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh_decision *decision);
+
+/* The decision where there is no state, or one too old to act on: the robot is held, and the step forgotten. */
+void lh_controller_hold(lh_controller *controller, lh_decision *decision);
+
+/* Switches the monitor on, for good: for a robot that is real. */
+void lh_controller_guard(lh_controller *controller);
 
 /* The robot has been put into its initial pose without being asked to (a plant that restarted, say): the step under
  * way is forgotten, and the running episode begins anew at the next state. */

@@ -63,6 +63,15 @@ START_TEST(default_settings_are_the_librarys_defaults) {
     SAME(learner.planner.candidates);
     SAME(learner.planner.sweeps);
     SAME(learner.planner.backups);
+    SAME(monitor.active);
+    SAME(monitor.period);
+    SAME(monitor.crawler.speed);
+    SAME(monitor.crawler.acceleration);
+    SAME(monitor.joint.speed);
+    SAME(monitor.joint.acceleration);
+    SAME(monitor.stop_clearance);
+    SAME(monitor.margin_floor);
+    SAME(monitor.tilt);
 #undef SAME
     ck_assert_int_eq(lh_config_validate(&config), LH_OK);
 }
@@ -114,6 +123,7 @@ START_TEST(each_limit_is_told) {
     controller.learner.as.q_learning.held = (lh_held){8, 16, 32};
     limphome_status_t status;
     memset(&status, 0, sizeof status);
+    controller.monitor.counts = (lh_monitor_counts){.decisions = 64, .actuators = 128};
     convert_limits(&controller, &status);
     ck_assert_int_eq(status.clamped_inputs, 1);
     ck_assert_int_eq(status.clamped_margins, 2);
@@ -122,6 +132,8 @@ START_TEST(each_limit_is_told) {
     ck_assert_int_eq(status.clamped_widths, 16);
     ck_assert_int_eq(status.clamped_centres, 32);
     ck_assert_int_eq(status.clamped, 63);
+    ck_assert_int_eq(status.interventions, 64);
+    ck_assert_int_eq(status.stilled_actuators, 128);
 }
 END_TEST
 
@@ -143,6 +155,54 @@ START_TEST(a_decision_tells_the_inputs_of_state_and_action) {
     decision.observed.reset = true; /* no action follows */
     message = convert_decision(&controller, &decision, &state);
     ck_assert_int_eq(message.num_inputs, 6);
+}
+END_TEST
+
+START_TEST(a_decision_tells_what_the_monitor_did) {
+    make_controller();
+    lh_controller_guard(&controller);
+    limphome_robot_state_t state = {.num_actuators = 5, .orientation = {1}, .actuator_health = {1, 1, 1, 1, 1}};
+    lh_decision decision;
+    do { /* until it chooses to move */
+        const lh_state sensed = convert_state(&state);
+        ck_assert_int_eq(lh_controller_step(&controller, &sensed, &decision), LH_OK);
+    } while (decision.intervention.hazards == 0);
+    const limphome_decision_t message = convert_decision(&controller, &decision, &state);
+    ck_assert_int_eq(message.action, 40);
+    ck_assert_int_eq(message.proposed_action, decision.choice.action);
+    ck_assert_int_eq(message.interventions & LIMPHOME_DECISION_T_FAILED, LIMPHOME_DECISION_T_FAILED);
+    ck_assert_int_eq(message.stilled, (int32_t)decision.intervention.stilled);
+    for (int k = 0; k < 4; k++) {
+        ck_assert_float_eq(message.inputs[6 + k], 0.5F);
+    }
+}
+END_TEST
+
+START_TEST(limits_of_the_monitor_are_the_settings) {
+    settings s = settings_default();
+    char error[ERROR_LENGTH] = "";
+    const char *assignments[] = {"safety.monitor=on",
+                                 "episode.decision_period_s=0.25",
+                                 "safety.crawler_speed=1",
+                                 "safety.joint_speed=2",
+                                 "safety.crawler_acceleration=3",
+                                 "safety.joint_acceleration=4",
+                                 "safety.stop_clearance_rad=0.5",
+                                 "safety.margin_floor_m=0.25",
+                                 "safety.tilt_rad=0.75"};
+    for (size_t i = 0; i < sizeof assignments / sizeof assignments[0]; i++) {
+        ck_assert_msg(settings_set(&s, assignments[i], error), "%s", error);
+    }
+    const lh_monitor_config config = convert_config(&s).monitor;
+    ck_assert(config.active);
+    ck_assert_float_eq(config.period, 0.25F);
+    ck_assert_float_eq(config.crawler.speed, 1);
+    ck_assert_float_eq(config.joint.speed, 2);
+    ck_assert_float_eq(config.crawler.acceleration, 3);
+    ck_assert_float_eq(config.joint.acceleration, 4);
+    ck_assert_float_eq(config.stop_clearance, 0.5F);
+    ck_assert_float_eq(config.margin_floor, 0.25F);
+    ck_assert_float_eq(config.tilt, 0.75F);
 }
 END_TEST
 
@@ -191,6 +251,8 @@ START_TEST(state_keeps_position_attitude_angles_and_torque) {
     message.orientation[3] = 0.8;
     message.actuator_position[4] = -1.5;
     message.actuator_effort[1] = 300;
+    message.actuator_health[2] = LIMPHOME_ROBOT_STATE_T_FAILED;
+    message.actuator_health[3] = LIMPHOME_ROBOT_STATE_T_WEAK;
     const lh_state state = convert_state(&message);
     ck_assert_float_eq(state.position[1], 2.5F);
     ck_assert_float_eq(state.orientation.w, 0.6F);
@@ -198,6 +260,9 @@ START_TEST(state_keeps_position_attitude_angles_and_torque) {
     ck_assert_float_eq(state.actuator_position[4], -1.5F);
     ck_assert_float_eq(state.actuator_effort[1], 300);
     ck_assert_int_eq(state.num_actuators, 5);
+    for (int i = 0; i < 5; i++) {
+        ck_assert_int_eq(state.actuator_failed[i], i == 2);
+    }
 }
 END_TEST
 
@@ -209,6 +274,8 @@ int main(void) {
     tcase_add_test(cases, a_path_is_the_same_in_the_library);
     tcase_add_test(cases, each_limit_is_told);
     tcase_add_test(cases, a_decision_tells_the_inputs_of_state_and_action);
+    tcase_add_test(cases, a_decision_tells_what_the_monitor_did);
+    tcase_add_test(cases, limits_of_the_monitor_are_the_settings);
     tcase_add_test(cases, an_episode_tells_its_line);
     tcase_add_test(cases, what_has_failed_is_not_controlled);
     tcase_add_test(cases, state_keeps_position_attitude_angles_and_torque);

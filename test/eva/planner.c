@@ -18,12 +18,19 @@ static void step(void) {
     Frama_C_make_unknown((char *)&state, sizeof state);
     if (lh_controller_step(&controller, &state, &decision) == LH_OK && !decision.observed.reset) {
         //@ assert 0 <= decision.choice.action < 9;
+        //@ assert 0 <= decision.intervention.action < 9;
     }
+}
+
+static void hold(void) {
+    lh_decision decision;
+    lh_controller_hold(&controller, &decision);
 }
 
 int main(void) {
     lh_config config = lh_config_default();
     config.learner.kind = LH_PLANNER;
+    config.monitor.active = Frama_C_interval(0, 1);
     config.learner.learn = Frama_C_interval(0, 1);
     config.learner.greedy = Frama_C_interval(0, 1);
     config.learner.planner.mechanics = Frama_C_interval(0, 1);
@@ -37,12 +44,21 @@ int main(void) {
     }
     //@ loop unroll 0; loop widen_hints controller.task.episode.steps, 1999;
     while (Frama_C_interval(0, 1)) {
-        switch (Frama_C_interval(0, 2)) {
+        switch (Frama_C_interval(0, 5)) {
             case 0:
                 lh_controller_begin(&controller);
                 break;
             case 1:
                 restore();
+                break;
+            case 2:
+                lh_controller_gap(&controller);
+                break;
+            case 3:
+                lh_controller_resume(&controller, Frama_C_interval(1, LH_LAST_EPISODE));
+                break;
+            case 4:
+                hold();
                 break;
             default:
                 step();

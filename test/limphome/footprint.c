@@ -18,10 +18,11 @@ enum {
     SCRATCH = 4 * S * (3 * A + 6) + 4 * LH_MAX_UNITS * LH_COLUMN_SLOTS,
     Q_LEARNING = NETWORK + SCRATCH + 4 * LH_MAX_ACTIONS + 4 * A + 136,
     PLANNER_LEARNED = 22 * LH_MAX_SAMPLES + 20 * LH_MAX_POSTURES + 120,
-    PLANNER = PLANNER_LEARNED + (52 + K) * B + 8 * A * P + 24 * A + 64 * LH_MAX_LINKS + 36 * P + 8 * W + 8 * K + 720,
+    PLANNER = PLANNER_LEARNED + (52 + K) * B + 8 * A * P + 24 * A + 64 * LH_MAX_LINKS + 36 * P + 8 * W + 8 * K + 740,
     LEARNER = (Q_LEARNING > PLANNER ? Q_LEARNING : PLANNER) + 12,
     TASK = 20 * A + 64 * LH_MAX_LINKS + 20 * P + 8 * W + 192,
-    CONTROLLER = LEARNER + TASK
+    MONITOR = 14 * A + 216,
+    CONTROLLER = LEARNER + TASK + MONITOR
 };
 
 HOLDS(lh_network, NETWORK);
@@ -31,6 +32,7 @@ HOLDS(lh_planner_learned, PLANNER_LEARNED);
 HOLDS(lh_planner, PLANNER);
 HOLDS(lh_learner, LEARNER);
 HOLDS(lh_task, TASK);
+HOLDS(lh_monitor, MONITOR);
 HOLDS(lh_controller, CONTROLLER);
 
 #ifdef PAPER
@@ -44,7 +46,7 @@ int main(void) {
     printf("lh_network %zu\nlh_q_learning without scratch %zu\nlh_action_scratch %zu\nlh_planner %zu\n",
            sizeof(lh_network), sizeof(lh_q_learning) - sizeof(lh_action_scratch), sizeof(lh_action_scratch),
            sizeof(lh_planner));
-    printf("lh_planner_learned %zu\nlh_task %zu\nlh_controller %zu\n", sizeof(lh_planner_learned), sizeof(lh_task),
-           sizeof(lh_controller));
+    printf("lh_planner_learned %zu\nlh_task %zu\nlh_monitor %zu\nlh_controller %zu\n", sizeof(lh_planner_learned),
+           sizeof(lh_task), sizeof(lh_monitor), sizeof(lh_controller));
     return 0;
 }

@@ -329,6 +329,18 @@ START_TEST(nothing_is_learned_across_a_gap) {
 }
 END_TEST
 
+/* All controlled actuators stand still, for that reason. */
+static void expect_held(const lh_decision *d, lh_hazard hazard) {
+    ck_assert_uint_eq(d->intervention.hazards, (uint32_t)hazard);
+    ck_assert_uint_eq(d->intervention.stilled, 0x1e);
+    ck_assert_int_eq(d->intervention.action, 40);
+    ck_assert(!d->observed.stepped && !d->choice.learned && !d->observed.reset);
+    ck_assert_int_eq(d->observed.episode, 1);
+    for (int32_t k = 0; k < LH_MAX_ACTUATORS; k++) {
+        ck_assert_float_eq(d->velocity[k], 0.0f);
+    }
+}
+
 START_TEST(resumed_where_it_stands) {
     lh_config config = lh_config_default();
     config.task.path =
@@ -345,7 +357,8 @@ START_TEST(resumed_where_it_stands) {
 }
 END_TEST
 
-START_TEST(invalid_state_changes_nothing) {
+/* Without the monitor, too: the robot is held, the step forgotten, nothing learned, and the hold counted. */
+START_TEST(an_invalid_state_holds_the_robot) {
     const lh_config config = lh_config_default();
     init(&controller, &config);
     step_at(&controller, 0.0f, 0.0f);
@@ -360,10 +373,150 @@ START_TEST(invalid_state_changes_nothing) {
     bad[3].actuator_position[3] = INFINITY;
     for (int32_t k = 0; k < COUNT(bad); k++) {
         lh_decision d;
+        memset(&d, 0x5a, sizeof d);
         ck_assert_int_eq(lh_controller_step(&controller, &bad[k], &d), LH_ERROR_STATE);
-        ck_assert_mem_eq(&controller, &other, sizeof controller);
+        expect_held(&d, LH_HAZARD_INVALID);
+        ck_assert_mem_eq(&controller.learner, &other.learner, sizeof controller.learner);
+        ck_assert_mem_eq(&controller.task.episode, &other.task.episode, sizeof other.task.episode);
+        ck_assert_uint_eq(controller.monitor.counts.decisions, (uint64_t)k + 1);
+        ck_assert_uint_eq(controller.monitor.counts.hazards[0], (uint64_t)k + 1);
+        ck_assert_uint_eq(controller.monitor.counts.actuators, 4 * ((uint64_t)k + 1));
     }
-    ck_assert(step_at(&controller, 0.0f, 0.1f).observed.stepped);
+    const lh_decision after = step_at(&controller, 0.0f, 0.1f);
+    ck_assert(!after.observed.stepped && !after.choice.learned);
+    ck_assert_int_eq(after.observed.episode, 1);
+    ck_assert(step_at(&controller, 0.0f, 0.2f).choice.learned);
+}
+END_TEST
+
+START_TEST(a_stale_state_holds_the_robot) {
+    const lh_config config = lh_config_default();
+    init(&controller, &config);
+    step_at(&controller, 0.0f, 0.0f);
+    lh_decision d;
+    memset(&d, 0x5a, sizeof d);
+    lh_controller_hold(&controller, &d);
+    expect_held(&d, LH_HAZARD_STALE);
+    ck_assert_uint_eq(controller.monitor.counts.hazards[1], 1);
+    ck_assert(!step_at(&controller, 0.0f, 0.1f).choice.learned);
+}
+END_TEST
+
+/* --- with the monitor --- */
+
+static void init_guarded(lh_learner_kind kind) {
+    lh_config config = lh_config_default();
+    config.learner.kind = kind;
+    config.learner.planner.sweeps = 0;
+    init(&controller, &config);
+    lh_controller_guard(&controller);
+}
+
+/* A misread position is neither learned nor taken for the goal, and neither is the way back from it. */
+START_TEST(a_position_spike_is_not_learned) {
+    init_guarded(LH_Q_LEARNING);
+    step_at(&controller, 0.0f, 0.0f);
+    ck_assert(step_at(&controller, 0.0f, 0.1f).choice.learned);
+    other = controller;
+    const lh_decision spike = step_at(&controller, 0.0f, 300.0f);
+    expect_held(&spike, LH_HAZARD_JUMP);
+    ck_assert_int_eq(spike.observed.outcome, LH_OUTCOME_NONE);
+    const lh_decision back = step_at(&controller, 0.0f, 0.2f);
+    ck_assert(!back.choice.learned && back.observed.outcome == LH_OUTCOME_NONE);
+    ck_assert_uint_eq(back.intervention.hazards, 0);
+    ck_assert_mem_eq(network_of(&controller), network_of(&other), sizeof(lh_network));
+    ck_assert(step_at(&controller, 0.0f, 0.3f).choice.learned);
+}
+END_TEST
+
+/* Where it is said to be long enough it is, and the way there is not learned either. */
+START_TEST(a_place_that_holds_is_believed) {
+    init_guarded(LH_Q_LEARNING);
+    step_at(&controller, 0.0f, 0.0f);
+    for (int32_t i = 0; i < 2; i++) {
+        const lh_decision held = step_at(&controller, 0.0f, 5.0f);
+        expect_held(&held, LH_HAZARD_JUMP);
+    }
+    const lh_decision believed = step_at(&controller, 0.0f, 5.0f);
+    ck_assert_int_eq(believed.observed.outcome, LH_OUTCOME_GOAL);
+    ck_assert(!believed.choice.learned && !believed.observed.stepped);
+    ck_assert(step_at(&controller, 0.0f, 5.1f).choice.learned);
+}
+END_TEST
+
+/* After a reset the robot may be anywhere. */
+START_TEST(put_back_is_no_jump) {
+    init_guarded(LH_Q_LEARNING);
+    step_at(&controller, 0.0f, 0.0f);
+    lh_controller_begin(&controller);
+    ck_assert_uint_eq(step_at(&controller, 9.0f, 9.0f).intervention.hazards, 0);
+    lh_controller_resume(&controller, 3);
+    ck_assert_uint_eq(step_at(&controller, 0.0f, 0.0f).intervention.hazards, 0);
+    controller.task.config.episode.reset_every = 1;
+    ck_assert(step_at(&controller, 0.0f, 0.5f).observed.outcome == LH_OUTCOME_NONE);
+    controller.task.config.episode.goal_distance = 0.4f;
+    controller.task.episode.goal = 0.4f;
+    const lh_decision reset = step_at(&controller, 0.0f, 0.6f);
+    ck_assert(reset.observed.reset);
+    ck_assert_uint_eq(reset.intervention.hazards, 0);
+    ck_assert_uint_eq(step_at(&controller, 9.0f, 9.0f).intervention.hazards, 0);
+    static lh_learned learned;
+    lh_learner_save(&controller.learner, &learned);
+    ck_assert_int_eq(lh_controller_restore(&controller, &learned, 2), LH_OK);
+    ck_assert_uint_eq(step_at(&controller, -9.0f, 9.0f).intervention.hazards, 0);
+}
+END_TEST
+
+/* With all actuators out of order the only action is to be still; TD error and measurement are of that one. */
+START_TEST(what_is_executed_is_learned) {
+    init_guarded(LH_Q_LEARNING);
+    lh_state state = crawler_state(0.0f, 0.0f, facing_y);
+    memset(state.actuator_failed, 1, sizeof state.actuator_failed);
+    int32_t stilled = 0;
+    for (int32_t i = 0; i < 20; i++) {
+        const lh_decision d = step(&controller, &state);
+        ck_assert_int_eq(d.intervention.action, 40);
+        ck_assert_int_eq(controller.learner.as.q_learning.action, 40);
+        ck_assert(d.intervention.hazards == (d.choice.action == 40 ? 0 : LH_HAZARD_FAILED));
+        stilled += d.intervention.hazards != 0;
+        for (int32_t k = 0; k < 5; k++) {
+            ck_assert_float_eq(d.velocity[k], 0.0f);
+        }
+    }
+    ck_assert_int_gt(stilled, 10);
+    ck_assert_uint_eq(controller.monitor.counts.decisions, (uint64_t)stilled);
+
+    init_guarded(LH_PLANNER);
+    for (int32_t i = 0; i < 3; i++) {
+        const lh_decision d = step(&controller, &state);
+        ck_assert_int_eq(d.intervention.action, 40);
+        ck_assert_int_ne(d.choice.action, 40); /* it never chooses to be still */
+        ck_assert_int_eq(controller.learner.as.planner.executed, 40);
+        ck_assert_float_eq(controller.learner.as.planner.expected_executed.forward, 0.0f);
+    }
+    const lh_motion_model *model = &controller.learner.as.planner.learned.model;
+    ck_assert_int_eq(model->action[0], 40);
+    ck_assert_int_eq(model->count[0], 2);
+    ck_assert_int_ne(model->action[1], 40); /* and what was chosen leads nowhere either */
+    ck_assert_int_eq(model->motion[3][1], -16384);
+}
+END_TEST
+
+/* Not a bit differs where there is nothing to intervene in. */
+START_TEST(the_monitor_changes_nothing_else) {
+    init_guarded(LH_Q_LEARNING);
+    const lh_config config = lh_config_default();
+    init(&other, &config);
+    for (int32_t i = 0; i < 50; i++) {
+        const lh_state state = crawler_state(0.0f, 0.02f * (float)i, facing_y);
+        const lh_decision a = step(&controller, &state);
+        const lh_decision b = step(&other, &state);
+        if (a.intervention.hazards != 0) {
+            ck_assert_uint_eq(a.intervention.hazards, LH_HAZARD_STUCK); /* as the joints do not move */
+            break;
+        }
+        ck_assert_mem_eq(&a, &b, sizeof a);
+    }
 }
 END_TEST
 
@@ -423,7 +576,15 @@ Suite *suite(void) {
     tcase_add_test(t, first_decision);
     tcase_add_test(t, crawlers_and_joints_have_their_own_speed);
     tcase_add_test(t, one_step_is_rewarded_and_learned);
-    tcase_add_test(t, invalid_state_changes_nothing);
+    tcase_add_test(t, an_invalid_state_holds_the_robot);
+    tcase_add_test(t, a_stale_state_holds_the_robot);
+    suite_add_tcase(s, t);
+    t = tcase_create("monitor");
+    tcase_add_test(t, a_position_spike_is_not_learned);
+    tcase_add_test(t, a_place_that_holds_is_believed);
+    tcase_add_test(t, put_back_is_no_jump);
+    tcase_add_test(t, what_is_executed_is_learned);
+    tcase_add_test(t, the_monitor_changes_nothing_else);
     suite_add_tcase(s, t);
     t = tcase_create("episodes");
     tcase_add_test(t, goal_is_terminal_and_the_next_line_lies_ahead);

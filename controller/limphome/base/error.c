@@ -36,6 +36,8 @@ const char *lh_error_text(lh_error error) {
             return "The kind of learner is unknown or another than what was saved";
         case LH_ERROR_PLANNER:
             return "A setting of the planner is out of range, or a planner does not fit the robot it is for";
+        case LH_ERROR_MONITOR:
+            return "A limit or the period of the monitor is out of range";
         case LH_ERROR_COUNT:
             break;
     }

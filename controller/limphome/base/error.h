@@ -24,6 +24,7 @@ typedef enum lh_error {
     LH_ERROR_RANDOM_STATE, /* a random state to be restored is all zero */
     LH_ERROR_LEARNER,      /* the kind of learner is unknown, or what is to be restored is of another kind */
     LH_ERROR_PLANNER, /* a setting of the planner, or of a planner to be restored, is out of range or does not fit */
+    LH_ERROR_MONITOR, /* a setting of the monitor is out of range */
     LH_ERROR_COUNT    /* number of entries above, not an error */
 } lh_error;
 

@@ -73,6 +73,23 @@ void lh_learner_step(lh_learner *learner, const lh_observed *observed, lh_choice
     }
 }
 
+void lh_learner_keep_clear(lh_learner *learner, float clearance) {
+    if (learner->kind == LH_PLANNER) {
+        lh_planner_keep_clear(&learner->as.planner, clearance);
+    }
+}
+
+void lh_learner_executed(lh_learner *learner, int32_t action) {
+    switch (learner->kind) {
+        case LH_Q_LEARNING:
+            lh_q_learning_executed(&learner->as.q_learning, action);
+            break;
+        case LH_PLANNER:
+            lh_planner_executed(&learner->as.planner, action);
+            break;
+    }
+}
+
 float lh_learner_temperature(const lh_learner *learner, int32_t episode) {
     switch (learner->kind) {
         case LH_Q_LEARNING:

@@ -66,6 +66,13 @@ void lh_learner_begin(lh_learner *learner);
  * lh_learner_begin before the next step. */
 void lh_learner_step(lh_learner *learner, const lh_observed *observed, lh_choice *choice);
 
+/* Joints nearer than `clearance` [rad] to a stop are not driven towards it by whoever executes: what plans need not
+ * reckon with it. */
+void lh_learner_keep_clear(lh_learner *learner, float clearance);
+
+/* Another action than the one just chosen is executed: what follows is learned of that one. */
+void lh_learner_executed(lh_learner *learner, int32_t action);
+
 /* Temperature of exploration in `episode`, from 1: T of (4) for Q-learning; 0 for a planner, which
  * has none. */
 float lh_learner_temperature(const lh_learner *learner, int32_t episode);

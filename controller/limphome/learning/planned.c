@@ -4,7 +4,7 @@
 
 #include "limphome/task/action.h"
 
-#define CLEARANCE 0.03f /* this near to its limit a joint is not driven towards it [rad] */
+#define CLEARANCE 0.03f /* of joints to their limits, unless more is asked for [rad] */
 
 _Static_assert(LH_MAX_PLANNED == 4 || LH_MAX_PLANNED == 5, "one crawler or two, and the joints");
 
@@ -26,6 +26,7 @@ static void add(lh_planned *planned, const lh_task *task, int32_t place) {
 void lh_planned_init(lh_planned *planned, const lh_task *task, float period) {
     memset(planned, 0, sizeof *planned);
     planned->num_controlled = task->controlled.count;
+    planned->clearance = CLEARANCE;
     for (int32_t k = 0; k < task->controlled.count; k++) {
         bool is_joint = task->robot.actuators[task->controlled.index[k]].kind == LH_JOINT;
         if (is_joint ? planned->num_joints < LH_PLANNED_JOINTS
@@ -70,8 +71,8 @@ bool lh_planned_allows(const lh_planned *planned, const float *angle, int32_t ac
     }
     const int8_t *level = lh_planned_joint_levels(planned, action);
     for (int32_t k = 0; k < planned->num_joints; k++) {
-        if ((level[k] == 0 && angle[k] < planned->low[k] + CLEARANCE) ||
-            (level[k] == 2 && angle[k] > planned->high[k] - CLEARANCE)) {
+        if ((level[k] == 0 && angle[k] < planned->low[k] + planned->clearance) ||
+            (level[k] == 2 && angle[k] > planned->high[k] - planned->clearance)) {
             return false;
         }
     }
@@ -93,4 +94,14 @@ int32_t lh_planned_joint_action(const lh_planned *planned, int32_t action) {
         levels[planned->place[k]] = planned->level[action][k];
     }
     return lh_action_index(levels, planned->num_controlled);
+}
+
+int32_t lh_planned_action(const lh_planned *planned, int32_t joint_action) {
+    int8_t levels[LH_MAX_ACTUATORS];
+    int8_t of_planned[LH_MAX_PLANNED];
+    lh_action_levels(joint_action, planned->num_controlled, levels);
+    for (int32_t k = 0; k < planned->count; k++) {
+        of_planned[k] = levels[planned->place[k]];
+    }
+    return lh_action_index(of_planned, planned->count);
 }

@@ -20,6 +20,7 @@ typedef struct lh_planned {
     int32_t num_joints;               /* of these */
     int32_t place[LH_MAX_PLANNED];    /* [count] in the task's controlled actuators, ascending */
     int32_t actuator[LH_MAX_PLANNED]; /* [count] of the robot */
+    float clearance;                  /* this near to its limit a joint is not driven towards it [rad] */
     float low[LH_PLANNED_JOINTS];     /* [num_joints] [rad] */
     float high[LH_PLANNED_JOINTS];    /* [num_joints] [rad] */
     float travel[LH_MAX_ACTUATORS];   /* [robot's actuators] of each in one decision [m or rad] */
@@ -43,7 +44,7 @@ const int8_t *lh_planned_joint_levels(const lh_planned *planned, int32_t action)
 /* The action that leaves everything as it is. */
 int32_t lh_planned_still(const lh_planned *planned);
 
-/* Whether `action` does something at angle[num_joints], and pushes no joint that is at its limit. */
+/* Whether `action` does something at angle[num_joints], and drives no joint nearer to its limit than `clearance`. */
 bool lh_planned_allows(const lh_planned *planned, const float *angle, int32_t action);
 
 /* Angles after `action` when the share `moved` of its motion happens, into next[num_joints]. */
@@ -51,6 +52,9 @@ void lh_planned_move(const lh_planned *planned, const float *angle, int32_t acti
 
 /* The task's joint action that is `action`, with all others still. */
 int32_t lh_planned_joint_action(const lh_planned *planned, int32_t action);
+
+/* The inverse: what the task's joint action is of the planned actuators. */
+int32_t lh_planned_action(const lh_planned *planned, int32_t joint_action);
 
 #ifdef __cplusplus
 }

@@ -80,16 +80,21 @@ lh_error lh_planner_init(lh_planner *planner, const lh_planner_config *config, c
     return LH_OK;
 }
 
+void lh_planner_keep_clear(lh_planner *planner, float clearance) {
+    float *own = &planner->planned.clearance;
+    *own = clearance > *own ? clearance : *own;
+}
+
 void lh_planner_begin(lh_planner *planner) {
     planner->acting = false;
     planner->node = LH_NO_NODE;
 }
 
-/* The share of the joint motion of the action under way that has happened, up to the joints' limits. */
-static float share_moved(const lh_planner *planner, const float *angle) {
+/* The share of the joint motion of `action` that has happened in the step under way, up to the joints' limits. */
+static float share_moved(const lh_planner *planner, int32_t action, const float *angle) {
     const lh_planned *planned = &planner->planned;
     float goal[LH_PLANNED_JOINTS];
-    lh_planned_move(planned, planner->angle, planner->action, 1.0f, goal);
+    lh_planned_move(planned, planner->angle, action, 1.0f, goal);
     float commanded = 0.0f;
     float achieved = 0.0f;
     for (int32_t k = 0; k < planned->num_joints; k++) {
@@ -102,8 +107,9 @@ static float share_moved(const lh_planner *planner, const float *angle) {
     return lh_clip(share, 0.0f, 1.0f);
 }
 
-/* Takes in by how much the action under way did something else than mechanics said. */
-static void learn(lh_planner *planner, const lh_pose2 *now, const float *angle) {
+/* Takes in by how much the step under way did something else than mechanics said of `action`. */
+static void learn_of(lh_planner *planner, int32_t action, const lh_twist *expected, const lh_pose2 *now,
+                     const float *angle) {
     const lh_pose2 *start = &planner->pose;
     float dx = now->x - start->x;
     float dy = now->y - start->y;
@@ -111,13 +117,21 @@ static void learn(lh_planner *planner, const lh_pose2 *now, const float *angle) 
     float sine = lh_sin(start->heading + 0.5f * turn);
     float cosine = lh_cos(start->heading + 0.5f * turn);
     lh_motion difference = {
-        .forward = cosine * dx + sine * dy - planner->expected.forward,
-        .sideways = cosine * dy - sine * dx - planner->expected.sideways,
-        .turn = turn - planner->expected.turn,
-        .moved = share_moved(planner, angle) - 1.0f,
+        .forward = cosine * dx + sine * dy - expected->forward,
+        .sideways = cosine * dy - sine * dx - expected->sideways,
+        .turn = turn - expected->turn,
+        .moved = share_moved(planner, action, angle) - 1.0f,
     };
-    lh_motion_model_insert(&planner->learned.model, planner->action, planner->angle, &difference,
-                           planner->learned.decisions);
+    lh_motion_model_insert(&planner->learned.model, action, planner->angle, &difference, planner->learned.decisions);
+}
+
+/* What was executed did that; and so does what was chosen where something else is executed in its place, or it would be
+ * chosen for ever. */
+static void learn(lh_planner *planner, const lh_pose2 *now, const float *angle) {
+    learn_of(planner, planner->executed, &planner->expected_executed, now, angle);
+    if (planner->action != planner->executed) {
+        learn_of(planner, planner->action, &planner->expected, now, angle);
+    }
 }
 
 /* The slope of the ground, from how the body lies on it. */
@@ -214,10 +228,18 @@ void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool lear
     choice->probability = 1.0f;
     planner->action = chosen.action;
     planner->expected = chosen.expected;
+    planner->executed = planner->action;
+    planner->expected_executed = planner->expected;
     planner->acting = true;
     planner->pose = observed->pose;
     memcpy(planner->angle, angle, sizeof angle);
     planner->node = node;
+}
+
+void lh_planner_executed(lh_planner *planner, int32_t action) {
+    planner->executed = lh_planned_action(&planner->planned, action);
+    lh_planning_look(planner, planner->angle); /* the choice has looked further */
+    planner->expected_executed = planner->outlook.expected[planner->executed];
 }
 
 void lh_planner_save(const lh_planner *planner, lh_planner_learned *learned) {

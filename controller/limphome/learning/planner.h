@@ -98,8 +98,10 @@ typedef struct lh_planner {
     lh_planner_learned learned;
     /* the step under way */
     bool acting;                    /* an action was chosen and its result is awaited */
-    int32_t action;                 /* of `planned` */
+    int32_t action;                 /* of `planned`, as chosen */
     lh_twist expected;              /* what mechanics says it will do */
+    int32_t executed;               /* of `planned`: mostly the same */
+    lh_twist expected_executed;     /* likewise */
     lh_pose2 pose;                  /* where it began */
     float angle[LH_PLANNED_JOINTS]; /* [planned.num_joints] there [rad] */
     int32_t node;                   /* nearest to these */
@@ -121,6 +123,9 @@ lh_error lh_planner_config_validate(const lh_planner_config *config);
  * changed. */
 lh_error lh_planner_init(lh_planner *planner, const lh_planner_config *config, const lh_task *task, uint64_t seed);
 
+/* Chooses nothing that drives a joint nearer than `clearance` to its limit towards it [rad]; not less than its own. */
+void lh_planner_keep_clear(lh_planner *planner, float clearance);
+
 /* Forgets the step under way. */
 void lh_planner_begin(lh_planner *planner);
 
@@ -128,6 +133,10 @@ void lh_planner_begin(lh_planner *planner);
  * chance. Planning goes on without `learn`, on what was measured before. Where the robot has made no progress for long,
  * chance decides some of the actions in any case. */
 void lh_planner_step(lh_planner *planner, const lh_observed *observed, bool learn, bool greedy, lh_choice *choice);
+
+/* Another action than the one just chosen is executed, one that moves no actuator that is not planned with: what is
+ * measured is what that one does, and what comes of choosing the other where the arm is now. */
+void lh_planner_executed(lh_planner *planner, int32_t action);
 
 void lh_planner_save(const lh_planner *planner, lh_planner_learned *learned);
 

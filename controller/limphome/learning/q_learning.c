@@ -127,6 +127,10 @@ void lh_q_learning_step(lh_q_learning *learner, const lh_observed *observed, boo
     }
 }
 
+void lh_q_learning_executed(lh_q_learning *learner, int32_t action) {
+    learner->action = action;
+}
+
 void lh_q_learning_save(const lh_q_learning *learner, lh_q_learned *learned) {
     learned->network = learner->network;
     learned->random = learner->random;

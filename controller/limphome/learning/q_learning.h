@@ -70,6 +70,9 @@ void lh_q_learning_begin(lh_q_learning *learner);
 void lh_q_learning_step(lh_q_learning *learner, const lh_observed *observed, bool learn, bool greedy,
                         lh_choice *choice);
 
+/* Another action than the one just chosen is executed: (1) is then about Q(s, action). */
+void lh_q_learning_executed(lh_q_learning *learner, int32_t action);
+
 /* T of (4) in `episode`, from 1, but not below its floor. */
 float lh_q_learning_temperature(const lh_q_learning *learner, int32_t episode);
 

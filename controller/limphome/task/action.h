@@ -11,6 +11,8 @@
 extern "C" {
 #endif
 
+#define LH_STILL 1 /* the level that does nothing */
+
 /* Range of the speed of the forward and reverse levels. */
 #define LH_SPEED_MIN 0.01f /* [m/s or rad/s] */
 #define LH_SPEED_MAX 2.0f  /* [m/s or rad/s] */

@@ -18,6 +18,7 @@ typedef struct lh_state {
     int32_t num_actuators;                     /* equal to the robot's */
     float actuator_position[LH_MAX_ACTUATORS]; /* joint angle [rad]; crawlers: not read */
     float actuator_effort[LH_MAX_ACTUATORS];   /* crawler torque about the sprocket [N*m]; joints: not read */
+    int8_t actuator_failed[LH_MAX_ACTUATORS];  /* not 0: does not obey; read by the monitor alone */
 } lh_state;
 
 /* Which actuators are controlled: ascending indices into the robot's actuators. */

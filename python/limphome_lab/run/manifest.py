@@ -119,6 +119,8 @@ COUNTERS = (
     "clamped_weights",
     "clamped_widths",
     "clamped_centres",
+    "interventions",
+    "stilled_actuators",
     "saturated",
     "faults",
 )

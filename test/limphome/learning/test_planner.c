@@ -243,6 +243,7 @@ START_TEST(the_share_of_motion_of_the_joints) {
         step_at(&planner, 0.0f, cases[i].from);
         const int8_t levels[] = {2, cases[i].level};
         planner.action = lh_action_index(levels, 2);
+        planner.executed = planner.action;
         step_at(&planner, 0.0f, cases[i].to);
         expect_near(1.0 + in_units(planner.learned.model.motion[3][0]), cases[i].moved, 1e-3);
     }
