@@ -83,8 +83,6 @@ static void fill_values(const lh_posture_values *values, limphome_planner_t *mes
     COPY(message->node_spacing, values->spacing, LH_PLANNED_JOINTS);
     COPY(message->node_value, values->value, values->num_nodes);
     COPY(message->node_cost, values->cost, values->num_nodes);
-    for (int32_t i = 0; i < values->num_nodes; i++) {
-    }
 }
 
 static void read_values(const limphome_planner_t *message, lh_posture_values *values) {
@@ -96,8 +94,6 @@ static void read_values(const limphome_planner_t *message, lh_posture_values *va
     COPY(values->spacing, message->node_spacing, LH_PLANNED_JOINTS);
     COPY(values->value, message->node_value, values->num_nodes);
     COPY(values->cost, message->node_cost, values->num_nodes);
-    for (int32_t i = 0; i < values->num_nodes; i++) {
-    }
 }
 
 void learned_save_planner(limphome_planner_t *message, const lh_controller *c) {

@@ -39,6 +39,15 @@ void lh_controller_begin(lh_controller *controller) {
     lh_learner_begin(&controller->learner);
 }
 
+void lh_controller_resume(lh_controller *controller, int32_t episode) {
+    lh_task_resume(&controller->task, episode);
+    lh_learner_begin(&controller->learner);
+}
+
+void lh_controller_gap(lh_controller *controller) {
+    lh_task_gap(&controller->task);
+}
+
 lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh_decision *decision) {
     lh_error error = lh_task_observe(&controller->task, state, &decision->observed);
     if (error != LH_OK) {

@@ -62,6 +62,15 @@ lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh
  * way is forgotten, and the running episode begins anew at the next state. */
 void lh_controller_begin(lh_controller *controller);
 
+/* The robot stands where it was left and is not carried back, as a machine that a controller finds after a restart: the
+ * step under way is forgotten, and `episode` (1 to LH_LAST_EPISODE) begins at the next state, on the leg of the path
+ * that is nearest (lh_path_resume). */
+void lh_controller_resume(lh_controller *controller, int32_t episode);
+
+/* Something else than the action under way leads to the next state, such as a hold, a pause or states that were missed:
+ * that step is forgotten, nothing is rewarded or learned, while the episode goes on. */
+void lh_controller_gap(lh_controller *controller);
+
 #ifdef __cplusplus
 }
 #endif

@@ -300,6 +300,51 @@ START_TEST(begun_anew_by_the_plant) {
 }
 END_TEST
 
+/* Neither what a gap hides nor where it leads is learned from, by either kind; what comes after it is. */
+START_TEST(nothing_is_learned_across_a_gap) {
+    for (int32_t kind = LH_Q_LEARNING; kind <= LH_PLANNER; kind++) {
+        lh_config config = lh_config_default();
+        config.learner.kind = (lh_learner_kind)kind;
+        config.learner.planner.sweeps = 0;
+        init(&controller, &config);
+        step_at(&controller, 0.0f, 0.0f);
+        ck_assert(step_at(&controller, 0.0f, 0.1f).choice.learned);
+        static lh_learned before;
+        static lh_learned after;
+        memset(&before, 0, sizeof before);
+        memset(&after, 0, sizeof after);
+        lh_learner_save(&controller.learner, &before);
+        lh_controller_gap(&controller);
+        const lh_decision d = step_at(&controller, 0.0f, 1.1f);
+        ck_assert(!d.observed.stepped && !d.choice.learned && d.observed.outcome == LH_OUTCOME_NONE);
+        ck_assert_int_eq(d.observed.step, 2);
+        lh_learner_save(&controller.learner, &after);
+        if (kind == LH_Q_LEARNING) {
+            ck_assert_mem_eq(&after.as.q_learning.network, &before.as.q_learning.network, sizeof(lh_network));
+        } else {
+            ck_assert_mem_eq(&after.as.planner.model, &before.as.planner.model, sizeof(lh_motion_model));
+        }
+        ck_assert(step_at(&controller, 0.0f, 1.2f).choice.learned);
+    }
+}
+END_TEST
+
+START_TEST(resumed_where_it_stands) {
+    lh_config config = lh_config_default();
+    config.task.path =
+        (lh_path_config){.kind = LH_PATH_WAYPOINTS, .num_waypoints = 2, .waypoint = {{0.0f, 4.0f}, {6.0f, 4.0f}}};
+    init(&controller, &config);
+    step_at(&controller, 0.0f, 0.0f);
+    lh_controller_resume(&controller, 12);
+    const lh_decision d = step_at(&controller, 3.0f, 4.5f);
+    ck_assert(!d.observed.stepped && !d.choice.learned);
+    ck_assert_int_eq(d.observed.episode, 12);
+    expect_near(d.observed.lateral_error, 0.5, 1e-5);
+    expect_near(d.observed.heading_error, M_PI_2, 1e-5);
+    ck_assert(step_at(&controller, 3.1f, 4.5f).choice.learned);
+}
+END_TEST
+
 START_TEST(invalid_state_changes_nothing) {
     const lh_config config = lh_config_default();
     init(&controller, &config);
@@ -387,6 +432,8 @@ Suite *suite(void) {
     tcase_add_test(t, timeout_goes_on_bootstrapping);
     tcase_add_test(t, reset_every_so_many_episodes);
     tcase_add_test(t, begun_anew_by_the_plant);
+    tcase_add_test(t, nothing_is_learned_across_a_gap);
+    tcase_add_test(t, resumed_where_it_stands);
     suite_add_tcase(s, t);
     t = tcase_create("reproduction");
     tcase_add_test(t, bad_checkpoints_change_nothing);

@@ -40,7 +40,7 @@
 #define LH_MAX_ACTIONS 6561 /* joint actions, LH_ACTION_LEVELS ^ LH_MAX_ACTUATORS */
 #endif
 #ifndef LH_MAX_SAMPLES
-#define LH_MAX_SAMPLES 1024 /* measured motions that the planner keeps, a multiple of 16 */
+#define LH_MAX_SAMPLES 960 /* measured motions that the planner keeps, a multiple of 16 */
 #endif
 #ifndef LH_MAX_POSTURES
 #define LH_MAX_POSTURES 1200 /* postures of the arm for which it plans */

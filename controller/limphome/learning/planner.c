@@ -139,8 +139,7 @@ static lh_vec3 vertical_along(const lh_planner *planner, float direction) {
 }
 
 static void watch_progress(lh_planner *planner, const lh_observed *observed) {
-    bool begins = !observed->stepped || observed->outcome != LH_OUTCOME_NONE;
-    if (begins || observed->goal_distance < planner->best_distance - PROGRESS) {
+    if (observed->step == 0 || observed->goal_distance < planner->best_distance - PROGRESS) {
         planner->best_distance = observed->goal_distance;
         planner->stalled = 0;
     } else if (planner->stalled < STALLED) {

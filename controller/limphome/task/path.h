@@ -53,6 +53,12 @@ lh_error lh_path_config_validate(const lh_path_config *config);
  * its initial pose. */
 void lh_path_begin(lh_path *path, const lh_path_config *config, const lh_pose2 *pose);
 
+/* For a robot that stands somewhere along the path and is not carried back to its beginning, such as after a restart:
+ * enters the leg nearest to `pose`, the later one where two are equally near, so that no waypoint is driven back to
+ * that has been passed. The path then begins where the world frame does, at its origin and facing +y; a rolling one
+ * begins at `pose`, and so does one that `pose` has passed altogether. */
+void lh_path_resume(lh_path *path, const lh_path_config *config, const lh_pose2 *pose);
+
 /* Goes over to the leg after the last waypoint that `pose` has passed, but not beyond the last leg. */
 void lh_path_advance(lh_path *path, const lh_path_config *config, const lh_pose2 *pose);
 

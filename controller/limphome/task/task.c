@@ -78,6 +78,17 @@ lh_error lh_task_init(lh_task *task, const lh_task_config *config, const lh_robo
 void lh_task_begin(lh_task *task, int32_t episode) {
     task->episode.number = episode;
     task->acting = false;
+    task->gap = false;
+    task->resuming = false;
+}
+
+void lh_task_resume(lh_task *task, int32_t episode) {
+    lh_task_begin(task, episode);
+    task->resuming = true;
+}
+
+void lh_task_gap(lh_task *task) {
+    task->gap = true;
 }
 
 static situation assess(const lh_task *task, const lh_state *state, lh_quat attitude) {
@@ -137,16 +148,18 @@ static lh_summary summarise(const lh_task *task, const lh_pose2 *end, lh_outcome
     };
 }
 
-/* The action under way has led to `now`: its reward, and how it ends the episode, if it does. */
+/* The action under way has led to `now`, or there was a gap: how the episode ends, if it does, and its reward. */
 static lh_outcome finish_step(lh_task *task, const situation *now, lh_observed *observed) {
     lh_episode *episode = &task->episode;
     episode->steps++;
     lh_outcome outcome = lh_episode_outcome(episode, &task->config.episode, &now->pose, now->tilt);
-    observed->stepped = true;
-    observed->reward = rewards_of_step(task, now, outcome);
     observed->outcome = outcome;
-    task->clamped.margins += now->margin < LH_LEAST_MARGIN;
-    add_reward(&episode->total, &observed->reward);
+    if (!task->gap) {
+        observed->stepped = true;
+        observed->reward = rewards_of_step(task, now, outcome);
+        task->clamped.margins += now->margin < LH_LEAST_MARGIN;
+        add_reward(&episode->total, &observed->reward);
+    }
     if (outcome != LH_OUTCOME_NONE) {
         observed->summary = summarise(task, &now->pose, outcome);
     }
@@ -173,7 +186,9 @@ static int32_t number_after(const lh_episode *episode) {
 static void begin_episode(lh_task *task, int32_t number, const lh_pose2 *pose) {
     const lh_path_config *config = &task->config.path;
     lh_path *path = &task->path;
-    if (!task->acting || config->kind == LH_PATH_ROLLING) {
+    if (task->resuming) {
+        lh_path_resume(path, config, pose);
+    } else if (!task->acting || config->kind == LH_PATH_ROLLING) {
         lh_path_begin(path, config, pose);
     }
     lh_path_advance(path, config, pose);
@@ -201,6 +216,8 @@ lh_error lh_task_observe(lh_task *task, const lh_state *state, lh_observed *obse
     } else {
         begin_episode(task, episode->number, &now.pose);
     }
+    task->gap = false;
+    task->resuming = false;
     if (outcome != LH_OUTCOME_NONE) {
         observed->reset = outcome == LH_OUTCOME_TUMBLE || observed->summary.arrived ||
                           episode->number % task->config.episode.reset_every == 0;

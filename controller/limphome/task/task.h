@@ -45,7 +45,7 @@ typedef struct lh_summary {
 /* What one state tells. */
 typedef struct lh_observed {
     /* the step that led here; reward is 0 where there was none */
-    bool stepped;       /* false on the first state, after a reset, and after lh_task_begin */
+    bool stepped;       /* false on the first state, after a reset, lh_task_begin, lh_task_resume and lh_task_gap */
     lh_reward reward;   /* of that step */
     lh_outcome outcome; /* how that step ended its episode; LH_OUTCOME_NONE: it goes on */
     lh_summary summary; /* of the episode that ended; valid unless outcome is LH_OUTCOME_NONE */
@@ -80,6 +80,8 @@ typedef struct lh_task {
     lh_episode episode;
     bool acting;   /* an action follows the newest state, and its result is awaited; false: episode.number begins at the
                       next state */
+    bool gap;      /* that result will not be known */
+    bool resuming; /* the episode that begins at the next state is entered where the robot stands on the path */
     lh_pose2 pose; /* where that action began */
     lh_clamped clamped; /* so far */
 } lh_task;
@@ -98,6 +100,13 @@ lh_error lh_task_init(lh_task *task, const lh_task_config *config, const lh_robo
 /* The robot is somewhere else than its last action led it to: the step under way is forgotten, and `episode`, 1 to
  * LH_LAST_EPISODE, begins at the next state. */
 void lh_task_begin(lh_task *task, int32_t episode);
+
+/* The same for a robot that was not carried to where the path begins: it goes on along the path (lh_path_resume). */
+void lh_task_resume(lh_task *task, int32_t episode);
+
+/* Something else than the action under way leads to the next state: that step is forgotten, without reward, while the
+ * episode goes on. How it may end there is told as ever. */
+void lh_task_gap(lh_task *task);
 
 /* Takes in one state. LH_ERROR_STATE, and nothing changed, if it is not valid.
  * An episode that ends on the goal line or by the time limit is followed by the next from where the robot is, unless

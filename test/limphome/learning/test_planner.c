@@ -364,7 +364,8 @@ START_TEST(without_progress_chance_helps) {
     observed.stepped = false;
     for (int32_t i = 0; i < 25; i++) { /* the first sees that an episode begins */
         step(&planner, &observed, true, true);
-        observed.stepped = true;
+        observed.stepped = i != 10; /* a step that was forgotten begins no episode */
+        observed.step++;
     }
     ck_assert_int_eq(planner.stalled, 24);
     ck_assert_mem_eq(&planner.learned.random, &before, sizeof before);
@@ -377,6 +378,7 @@ START_TEST(without_progress_chance_helps) {
     ck_assert_int_eq(planner.stalled, 0);
     step(&planner, &observed, true, true);
     observed.outcome = LH_OUTCOME_GOAL; /* another episode begins here */
+    observed.step = 0;
     observed.goal_distance = 2.0f;
     step(&planner, &observed, true, true);
     ck_assert_int_eq(planner.stalled, 0);

@@ -168,6 +168,74 @@ START_TEST(a_waypoint_twice) {
 }
 END_TEST
 
+/* --- a robot that stands somewhere along the path --- */
+
+/* From the origin 5 m ahead, 5 m to the right, and 5 m back. */
+static const lh_path_config hook = {
+    .kind = LH_PATH_WAYPOINTS, .num_waypoints = 3, .waypoint = {{0.0f, 5.0f}, {5.0f, 5.0f}, {5.0f, 0.0f}}};
+
+/* The waypoint it then heads for. */
+static int32_t resume_at(lh_path *path, const lh_path_config *config, float x, float y) {
+    const lh_pose2 pose = at(x, y);
+    lh_path_resume(path, config, &pose);
+    return path->next;
+}
+
+START_TEST(resuming_enters_the_nearest_leg) {
+    lh_path path;
+    ck_assert_int_eq(resume_at(&path, &hook, 0.4f, 3.0f), 0);
+    ck_assert_float_eq(path.leg.x, 0.0f);
+    ck_assert_float_eq(path.leg.y, 0.0f);
+    expect_near(path.leg.heading, M_PI_2, 1e-6);
+    expect_near(path.length, 5.0, 1e-6);
+    ck_assert_int_eq(resume_at(&path, &hook, -0.5f, -1.0f), 0); /* before its beginning */
+    ck_assert_int_eq(resume_at(&path, &hook, 2.0f, 5.5f), 1);
+    expect_near(path.leg.heading, 0.0, 1e-6);
+    ck_assert_float_eq(path.leg.y, 5.0f);
+    ck_assert_int_eq(resume_at(&path, &hook, 3.5f, 2.0f), 2); /* 1.5 m from the last, 3 m and more from the others */
+    expect_near(path.leg.heading, -M_PI_2, 1e-6);
+    const lh_pose2 pose = at(3.5f, 2.0f);
+    expect_near(lh_path_goal(&path, &pose, 1.0f), 4.0, 1e-6);
+}
+END_TEST
+
+/* Outside a corner its waypoint is the nearest point of both legs, and inside it may be as far to either. */
+START_TEST(resuming_takes_the_later_of_two_legs) {
+    lh_path path;
+    ck_assert_int_eq(resume_at(&path, &hook, -1.0f, 6.0f), 1);
+    ck_assert_int_eq(resume_at(&path, &hook, 0.0f, 5.0f), 1);
+    ck_assert_int_eq(resume_at(&path, &hook, 1.0f, 4.0f), 1);
+    ck_assert_int_eq(resume_at(&path, &hook, 6.3f, 5.9f), 2);
+    const lh_path_config out_and_back = {
+        .kind = LH_PATH_WAYPOINTS, .num_waypoints = 2, .waypoint = {{0.0f, 5.0f}, {0.0f, 0.0f}}};
+    ck_assert_int_eq(resume_at(&path, &out_and_back, 0.5f, 3.0f), 1);
+}
+END_TEST
+
+/* The leg that ends near by is over: on with the next, and from the end of the path with its beginning. */
+START_TEST(resuming_drives_back_to_no_waypoint) {
+    const lh_path_config ahead = {
+        .kind = LH_PATH_WAYPOINTS, .num_waypoints = 3, .waypoint = {{0.0f, 5.0f}, {0.0f, 5.0f}, {0.0f, 9.0f}}};
+    lh_path path;
+    ck_assert_int_eq(resume_at(&path, &ahead, 0.1f, 5.01f), 2);
+    ck_assert_int_eq(resume_at(&path, &ahead, 0.1f, 4.99f), 0);
+    ck_assert_int_eq(resume_at(&path, &ahead, 0.1f, 9.1f), 0);
+    expect_near(path.leg.y, 9.1, 1e-6); /* begins anew where the robot is */
+    expect_near(path.length, 4.1, 1e-2);
+}
+END_TEST
+
+START_TEST(resuming_paths_without_waypoints) {
+    lh_path path;
+    resume_at(&path, &(lh_path_config){.kind = LH_PATH_ROLLING}, 2.0f, 3.0f);
+    const lh_pose2 pose = at(2.0f, 3.0f);
+    ck_assert_mem_eq(&path.leg, &pose, sizeof pose);
+    resume_at(&path, &(lh_path_config){.kind = LH_PATH_AHEAD}, 2.0f, 3.0f);
+    expect_near(lh_line_along(&path.leg, &pose), 3.0, 1e-6);
+    expect_near(lh_line_lateral(&path.leg, &pose), -2.0, 1e-6);
+}
+END_TEST
+
 Suite *suite(void) {
     Suite *s = suite_create("path");
     TCase *t = tcase_create("path");
@@ -180,6 +248,12 @@ Suite *suite(void) {
     tcase_add_test(t, a_leg_already_passed_is_skipped);
     tcase_add_test(t, a_target_behind);
     tcase_add_test(t, a_waypoint_twice);
+    suite_add_tcase(s, t);
+    t = tcase_create("resuming");
+    tcase_add_test(t, resuming_enters_the_nearest_leg);
+    tcase_add_test(t, resuming_takes_the_later_of_two_legs);
+    tcase_add_test(t, resuming_drives_back_to_no_waypoint);
+    tcase_add_test(t, resuming_paths_without_waypoints);
     suite_add_tcase(s, t);
     return s;
 }

@@ -113,6 +113,66 @@ START_TEST(beginning_elsewhere_forgets_the_step) {
 }
 END_TEST
 
+/* The step that a gap is in has no reward, and the steps after it have theirs; the episode goes on and counts it. */
+START_TEST(a_gap_is_no_step) {
+    lh_task_config config = lh_task_config_default();
+    config.episode.step_limit = 3;
+    lh_task task = make_task(&config);
+    observe_at(&task, 0.0f, 0.0f);
+    lh_task_gap(&task);
+    const lh_observed after = observe_at(&task, 0.0f, 0.5f);
+    ck_assert(!after.stepped && after.outcome == LH_OUTCOME_NONE);
+    ck_assert_float_eq(lh_reward_total(&after.reward), 0.0f);
+    ck_assert_int_eq(after.episode, 1);
+    ck_assert_int_eq(after.step, 1);
+    expect_near(after.goal_distance, 1.5, 1e-6);
+    const lh_observed next = observe_at(&task, 0.0f, 0.6f);
+    ck_assert(next.stepped);
+    expect_near(next.reward.motion, 0.8, 1e-5);
+    lh_task_gap(&task);
+    const lh_observed last = observe_at(&task, 0.0f, 0.7f);
+    ck_assert(!last.stepped);
+    ck_assert_int_eq(last.outcome, LH_OUTCOME_TIMEOUT);
+    expect_near(last.summary.total.motion, 0.8, 1e-5);
+}
+END_TEST
+
+START_TEST(goal_and_tumble_are_noticed_across_a_gap) {
+    const lh_task_config config = lh_task_config_default();
+    lh_task task = make_task(&config);
+    observe_at(&task, 0.0f, 0.0f);
+    lh_task_gap(&task);
+    const lh_observed goal = observe_at(&task, 0.0f, 2.5f);
+    ck_assert_int_eq(goal.outcome, LH_OUTCOME_GOAL);
+    ck_assert(!goal.stepped);
+    ck_assert_float_eq(lh_reward_total(&goal.summary.total), 0.0f);
+    lh_task_gap(&task);
+    lh_state state = crawler_state(0.0f, 2.5f, facing_y);
+    state.orientation = (lh_quat){0.0f, 1.0f, 0.0f, 0.0f};
+    lh_observed tumble;
+    ck_assert_int_eq(lh_task_observe(&task, &state, &tumble), LH_OK);
+    ck_assert_int_eq(tumble.outcome, LH_OUTCOME_TUMBLE);
+    ck_assert(tumble.reset && !tumble.stepped);
+    ck_assert_float_eq(tumble.reward.tumble, 0.0f);
+}
+END_TEST
+
+/* What is under way is over: a gap before it is none after it. */
+START_TEST(a_gap_ends_with_what_it_is_in) {
+    const lh_task_config config = lh_task_config_default();
+    lh_task task = make_task(&config);
+    observe_at(&task, 0.0f, 0.0f);
+    lh_task_gap(&task);
+    lh_task_begin(&task, 2);
+    observe_at(&task, 0.0f, 0.0f);
+    ck_assert(observe_at(&task, 0.0f, 0.1f).stepped);
+    lh_task_begin(&task, 3);
+    lh_task_gap(&task); /* nothing is under way */
+    observe_at(&task, 0.0f, 0.0f);
+    ck_assert(observe_at(&task, 0.0f, 0.1f).stepped);
+}
+END_TEST
+
 START_TEST(after_a_reset_the_next_state_is_a_first_one) {
     lh_task_config config = lh_task_config_default();
     config.episode.reset_every = 1;
@@ -239,6 +299,23 @@ START_TEST(a_reset_begins_the_path_again) {
 }
 END_TEST
 
+/* Carried back, the robot would be 0.8 m from the first waypoint; where it stands it is on the way to the second. */
+START_TEST(resuming_goes_on_along_the_path) {
+    lh_task task = make_task_of_corner();
+    observe_pose(&task, 0.0f, 0.0f, facing_y);
+    lh_task_resume(&task, 7);
+    const lh_observed there = observe_pose(&task, 0.8f, 2.9f, 0.0f);
+    ck_assert(!there.stepped);
+    ck_assert_int_eq(there.episode, 7);
+    expect_near(there.waypoint_distance, sqrt(0.05), 1e-6);
+    expect_near(there.goal_distance, 0.2, 1e-6);
+    expect_near(there.lateral_error, -0.1, 1e-6);
+    ck_assert(observe_pose(&task, 0.9f, 2.9f, 0.0f).stepped);
+    lh_task_begin(&task, 8); /* as ever: another leg to the first waypoint */
+    expect_near(observe_pose(&task, 0.9f, 2.9f, 0.0f).waypoint_distance, sqrt(0.82), 1e-6);
+}
+END_TEST
+
 /* Both ways round are equally far; moving off before the turn reaches no goal. */
 START_TEST(a_target_behind_is_reached_by_turning) {
     lh_task_config config = lh_task_config_default();
@@ -309,12 +386,16 @@ Suite *suite(void) {
     tcase_add_test(t, first_state_begins_an_episode);
     tcase_add_test(t, a_step_is_rewarded_and_summed_up);
     tcase_add_test(t, beginning_elsewhere_forgets_the_step);
+    tcase_add_test(t, a_gap_is_no_step);
+    tcase_add_test(t, goal_and_tumble_are_noticed_across_a_gap);
+    tcase_add_test(t, a_gap_ends_with_what_it_is_in);
     tcase_add_test(t, after_a_reset_the_next_state_is_a_first_one);
     tcase_add_test(t, a_rolling_line_goes_where_the_robot_faces);
     tcase_add_test(t, the_line_ahead_stays);
     tcase_add_test(t, a_path_is_followed_to_its_end);
     tcase_add_test(t, a_time_limit_stays_on_the_leg);
     tcase_add_test(t, a_reset_begins_the_path_again);
+    tcase_add_test(t, resuming_goes_on_along_the_path);
     tcase_add_test(t, a_target_behind_is_reached_by_turning);
     tcase_add_test(t, tumbling_on_the_last_line_is_no_arrival);
     tcase_add_test(t, velocities_are_those_of_the_levels);
