@@ -39,9 +39,11 @@ def invalid_attitude(state):
 
 
 def tilt(state):
-    """Short of a tumble."""
+    """By 0.95 rad to a side, short of a tumble."""
     if state.seq == AT:
-        state.orientation = [math.cos(0.475), math.sin(0.475), 0.0, 0.0]
+        w, _, _, z = state.orientation
+        c, s = math.cos(0.475), math.sin(0.475)
+        state.orientation = [w * c, w * s, z * s, z * c]
 
 
 def failed_joint(state):
