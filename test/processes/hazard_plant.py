@@ -1,7 +1,7 @@
 """A plant whose sensors lie or whose joints fail: python hazard_plant.py HAZARD URL COMMAND...
 
-The plant of fake_plant.py with a clean link. HAZARD, a function below, alters what its sensors say from state AT of each
-session on. Prints the exit code of COMMAND, a limphome-controller.
+The plant of fake_plant.py with a clean link. HAZARD, a function below, alters what its sensors say from state AT of
+each session on. Prints the exit code of COMMAND, a limphome-controller.
 """
 
 import math
@@ -10,6 +10,7 @@ import sys
 import time
 
 from fake_plant import BOOM, PERIOD_S, SWING, FakePlant
+
 from limphome import robot_state_t
 
 AT = 5  # state from which something is wrong

@@ -6,9 +6,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from hazard_plant import AT
 
 from conftest import ROOT, SMOKE, TIME_LIMIT_S
-from hazard_plant import AT
 from limphome import decision_t, status_t
 from limphome_lab import network, paths
 from limphome_lab.channels import COMMAND, DECISION, STATUS
@@ -138,7 +138,7 @@ def test_a_failed_joint_is_stilled(tmp_path, hazard, reason, observe):
 
 @pytest.mark.fault(
     "an action that is not safe",
-    injected="the library's monitor is given the state and the action: test_monitor and test_interlock, test_controller",
+    injected="the library's monitor is given state and action: test_monitor, test_interlock, test_controller",
     expected="what is not safe is stilled, and nothing else",
 )
 @pytest.mark.parametrize(
