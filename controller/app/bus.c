@@ -9,10 +9,11 @@
 #include <time.h>
 
 #include "limphome_channels.h"
-#include "limphome_reset_request_t.h"
 #include "messages.h"
 
 enum { LARGEST_MESSAGE = 16384 };
+enum { MOST_STATUSES = 20 /* recorded in a second */ };
+enum { MOST_MESSAGES = 128 /* handled at once: some 0.3 ms */ };
 
 double bus_now(void) {
     return (double)bus_now_us() * 1e-6;
@@ -31,9 +32,7 @@ static void receive_state(const lcm_recv_buf_t *buffer, const char *channel, voi
     b->counts.received++;
     switch (message_decode_state(buffer->data, buffer->data_size, &state)) {
         case MESSAGE_GOOD:
-            b->counts.duplicates += b->fresh; /* the one not taken is overtaken */
-            b->newest = state;
-            b->fresh = true;
+            b->listener.state(b->listener.user, &state);
             break;
         case MESSAGE_NON_FINITE:
             b->counts.rejected_non_finite++;
@@ -45,16 +44,27 @@ static void receive_state(const lcm_recv_buf_t *buffer, const char *channel, voi
     }
 }
 
+/* Of the plant's statuses, one a second and at each fault, so many are recorded: a flood must not fill the disk. */
+static bool may_record_status(bus *b) {
+    const double now = bus_now();
+    if (now - b->status_second >= 1) {
+        b->status_second = now;
+        b->statuses = 0;
+    }
+    return b->statuses++ < MOST_STATUSES;
+}
+
 /* The plant's status is kept in the log beside ours. */
 static void receive_status(const lcm_recv_buf_t *buffer, const char *channel, void *user) {
     bus *b = user;
     limphome_status_t status;
     const int size = limphome_status_t_decode(buffer->data, 0, (int)buffer->data_size, &status);
     if (size == (int)buffer->data_size && status.process == LIMPHOME_STATUS_T_PLANT) {
-        recording_add(b->recording, channel, buffer->data, size);
+        if (may_record_status(b)) {
+            recording_add(b->recording, channel, buffer->data, size);
+        }
         if (status.condition == LIMPHOME_STATUS_T_FAULT) {
-            b->faulted = true;
-            b->fault_session = status.session;
+            b->listener.fault(b->listener.user, status.session);
         }
     }
 }
@@ -64,15 +74,20 @@ static bool join_bus(bus *b, const char *url, char error[ERROR_LENGTH]) {
            udpm_subscribe(&b->lcm, LIMPHOME_CHANNEL_STATUS, receive_status, b);
 }
 
-static bool draw_sender(bus *b, char error[ERROR_LENGTH]) {
-    return getrandom(&b->sender, sizeof b->sender, 0) == (ssize_t)sizeof b->sender ||
-           fail_with(error, "no random numbers from the system: %s", strerror(errno));
+bool bus_draw(int64_t *number, char error[ERROR_LENGTH]) {
+    do {
+        if (getrandom(number, sizeof *number, 0) != (ssize_t)sizeof *number && errno != EINTR) {
+            return fail_with(error, "no random numbers from the system: %s", strerror(errno));
+        }
+    } while (*number == 0);
+    return true;
 }
 
-bool bus_open(bus *b, const char *url, recording *log, char error[ERROR_LENGTH]) {
+bool bus_open(bus *b, const char *url, bus_listener listener, recording *log, char error[ERROR_LENGTH]) {
     memset(b, 0, sizeof *b); /* not by a literal, which would lie on the stack */
+    b->listener = listener;
     b->recording = log;
-    return draw_sender(b, error) && join_bus(b, url, error);
+    return bus_draw(&b->sender, error) && join_bus(b, url, error);
 }
 
 void bus_close(bus *b) {
@@ -90,28 +105,14 @@ bool bus_wait(bus *b, double timeout) {
     const double begin = bus_now();
     int ready = readable(b, (int)ceil(timeout * 1000));
     b->wait_time += bus_now() - begin;
-    for (; ready > 0; ready = readable(b, 0)) {
+    for (int handled = 0; ready > 0 && handled < MOST_MESSAGES; handled++) {
         if (!udpm_handle(&b->lcm)) {
             return false;
         }
+        ready = readable(b, 0);
     }
-    return ready == 0;
-}
-
-bool bus_take(bus *b, limphome_robot_state_t *state) {
-    if (!b->fresh) {
-        return false;
-    }
-    b->fresh = false;
-    *state = b->newest;
-    return true;
-}
-
-bool bus_take_fault(bus *b, int64_t *session) {
-    const bool faulted = b->faulted;
-    b->faulted = false;
-    *session = b->fault_session;
-    return faulted;
+    b->counts.overruns += ready > 0;
+    return ready >= 0;
 }
 
 /* Encodes a message of any of our types into `bytes` and names its size; then `send` puts it on the bus. */
@@ -137,12 +138,10 @@ void bus_send_command(bus *b, const limphome_velocity_command_t *command, bool r
     send(b, LIMPHOME_CHANNEL_COMMAND, bytes, ENCODE(velocity_command_t, command, bytes), !repeats);
 }
 
-void bus_send_reset(bus *b, int64_t session, int64_t seq, int32_t episode, bool repeats) {
-    const limphome_reset_request_t request = {
-        .utime = bus_now_us(), .session = session, .seq = seq, .sender = b->sender, .episode = episode};
+void bus_send_reset(bus *b, const limphome_reset_request_t *request, bool repeats) {
     unsigned char bytes[LARGEST_MESSAGE];
     b->counts.resent += repeats;
-    send(b, LIMPHOME_CHANNEL_RESET, bytes, ENCODE(reset_request_t, &request, bytes), !repeats);
+    send(b, LIMPHOME_CHANNEL_RESET, bytes, ENCODE(reset_request_t, request, bytes), !repeats);
 }
 
 void bus_send_decision(bus *b, const limphome_decision_t *decision) {

@@ -1,5 +1,5 @@
 /* limphome-controller: the process around the library. Exit 0: all episodes done; 130: stopped by a signal;
- * 1: something went wrong on the way; 2: bad input, nothing was started. */
+ * 1: something went wrong on the way; 2: bad input, nothing was started; 3: given up, there was no plant that obeys. */
 #include <signal.h>
 #include <stdio.h>
 
@@ -14,7 +14,7 @@ static void on_signal(int number) {
 }
 
 int main(int argc, char **argv) {
-    enum { DONE = 0, WENT_WRONG = 1, BAD_INPUT = 2, STOPPED = 130 };
+    enum { DONE = 0, WENT_WRONG = 1, BAD_INPUT = 2, GAVE_UP = 3, STOPPED = 130 };
     command_line line;
     const command_line_result result = command_line_parse(argc, argv, COMMAND_LINE_CONTROLLER, &line);
     if (result != COMMAND_LINE_RUN) {
@@ -36,7 +36,7 @@ int main(int argc, char **argv) {
     const bool complete = run_decide(&r, &stop);
     if (!run_close(&r, complete)) {
         fprintf(stderr, "%s\n", r.error);
-        return WENT_WRONG;
+        return r.gave_up ? GAVE_UP : WENT_WRONG;
     }
     if (!complete) {
         fprintf(stderr, "stopped after episode %d\n", r.finished);

@@ -63,18 +63,18 @@ bool run_check(run *r, const command_line *line) {
 
 bool run_open(run *r, const command_line *line) {
     run_folder_place place;
-    if (!read_inputs(r, line, &place) ||
-        !bus_open(&r->bus, line->lcm_url, &r->folder.recording, r->error)) { /* before there is a folder in the way */
+    if (!read_inputs(r, line, &place) || !plant_link_open(&r->link, line->lcm_url, &r->settings, &r->folder.recording,
+                                                          r->error)) { /* before there is a folder in the way */
         return false;
     }
     if (!(line->resume ? run_folder_resume(&r->folder, line->out, &place, r->error)
                        : run_folder_create(&r->folder, line->out, r->error))) {
         run_folder_close(&r->folder, r->error);
-        bus_close(&r->bus);
+        bus_close(&r->link.bus);
         return false;
     }
-    session_init(&r->session, r->settings.link.sender_timeout_s);
     r->started = bus_now();
+    trouble_init(&r->trouble, &r->settings, r->started);
     return true;
 }
 
@@ -108,16 +108,15 @@ static bool begin_learner(run *r, const limphome_robot_state_t *state) {
     return r->learner_ready;
 }
 
-static void send_reset(run *r) {
-    const int32_t episode = r->learner_ready ? r->controller.task.episode.number : r->finished + 1;
-    bus_send_reset(&r->bus, r->session.session, r->session.seq, episode, r->reset_sent);
-    r->reset_sent = true;
+/* The episode that a reset would be followed by. */
+static int32_t next_episode(const run *r) {
+    return r->learner_ready ? r->controller.task.episode.number : r->finished + 1;
 }
 
 /* What has been learned so far, as message and in r->learned. */
 static void tell_learned(run *r) {
     learned_save(&r->learned, &r->controller, r->finished, r->utime, r->hash);
-    bus_send_policy(&r->bus, &r->learned);
+    bus_send_policy(&r->link.bus, &r->learned);
 }
 
 /* An episode has ended: a row, a message, and a checkpoint where the plant is about to be reset for one. */
@@ -125,7 +124,7 @@ static void finish_episode(run *r, const lh_summary *summary, const limphome_rob
     r->finished = summary->number;
     const limphome_episode_t episode =
         convert_episode(&r->controller, summary, state, r->settings.episode.decision_period_s);
-    bus_send_episode(&r->bus, &episode);
+    bus_send_episode(&r->link.bus, &episode);
     run_folder_episode(&r->folder, &episode, r->error);
     if (!r->evaluating && summary->number % r->config.task.episode.reset_every == 0) {
         tell_learned(r);
@@ -133,43 +132,62 @@ static void finish_episode(run *r, const lh_summary *summary, const limphome_rob
     }
 }
 
-/* Decides on a new state and answers it. The command goes out first: the plant works on while we write the rest. */
-static void decide(run *r, const limphome_robot_state_t *state) {
-    if (!r->learner_ready && !begin_learner(r, state)) {
-        return;
+/* A session begins: the robot is where an episode begins, or was put there without our asking, or has stayed where it
+ * was. */
+static void begin_session(run *r, const limphome_robot_state_t *state) {
+    if (state->reset == LIMPHOME_ROBOT_STATE_T_WHERE_IT_IS) {
+        lh_controller_resume(&r->controller, next_episode(r));
+    } else if (r->restarted) {
+        lh_controller_begin(&r->controller);
+        rollback_keep(&r->kept, &r->controller, r->finished, &r->folder);
+    }
+    r->restarted = r->gap = false;
+}
+
+/* A plant that is not armed is answered, as a sign of life, but nothing is decided. */
+static void hold(run *r, const limphome_robot_state_t *state) {
+    static const float rest[LH_MAX_ACTUATORS];
+    plant_link_command(&r->link, state, rest);
+    bus_record_state(&r->link.bus, state);
+    r->gap = true;
+}
+
+/* One call of the library. If it refuses the state the robot holds still; the next one may be better. */
+static void step(run *r, const limphome_robot_state_t *state, lh_decision *decision) {
+    if (r->gap) {
+        lh_controller_gap(&r->controller);
     }
     if (state->lockstep == 0) { /* a plant in real time is watched, whatever the settings say */
         lh_controller_guard(&r->controller);
     }
     const lh_state sensed = convert_state(state);
-    lh_decision decision = {.velocity = {0}};
-    const lh_error error = lh_controller_step(&r->controller, &sensed, &decision);
-    if (error != LH_OK) { /* hold still; the next state may be better */
-        fprintf(stderr, "state %" PRId64 ": %s; holding still\n", state->seq, lh_error_text(error));
+    const lh_error error = lh_controller_step(&r->controller, &sensed, decision);
+    r->gap = error != LH_OK;
+    if (error != LH_OK) {
+        r->link.invalid = bus_now();
+        notice_print(&r->invalid, bus_now(), "state %" PRId64 ": %s; holding still", state->seq, lh_error_text(error));
+    } else {
+        trouble_useful(&r->trouble, true, bus_now());
     }
+}
+
+/* Decides on a new state and answers it. The command goes out first: the plant works on while we write the rest. */
+static void decide(run *r, const limphome_robot_state_t *state) {
+    lh_decision decision = {.velocity = {0}};
+    step(r, state, &decision);
     const lh_observed *observed = &decision.observed;
     const bool ended = observed->outcome != LH_OUTCOME_NONE;
     const bool last = ended && observed->summary.number >= r->last;
-    r->reset_sent = false;
     if (observed->reset && !last) {
-        session_reset(&r->session);
-        send_reset(r);
+        plant_link_reset(&r->link, next_episode(r));
     } else if (!last) {
-        r->command = (limphome_velocity_command_t){.utime = bus_now_us(),
-                                                   .session = state->session,
-                                                   .seq = state->seq,
-                                                   .sender = r->bus.sender,
-                                                   .num_actuators = state->num_actuators};
-        for (int i = 0; i < state->num_actuators; i++) {
-            r->command.velocity[i] = (double)decision.velocity[i];
-        }
-        bus_send_command(&r->bus, &r->command, false);
+        plant_link_command(&r->link, state, decision.velocity);
     }
-    bus_record_state(&r->bus, state);
+    bus_record_state(&r->link.bus, state);
     r->decisions++;
     r->utime = state->utime;
     const limphome_decision_t message = convert_decision(&r->controller, &decision, state);
-    bus_send_decision(&r->bus, &message);
+    bus_send_decision(&r->link.bus, &message);
     if (ended) {
         finish_episode(r, &observed->summary, state);
     }
@@ -178,87 +196,94 @@ static void decide(run *r, const limphome_robot_state_t *state) {
     }
 }
 
-/* The plant has put the robot back without being asked to. A simulation that diverged would do so again: its episode
- * begins anew. Of a simulator that is another process now, all since it was last reset is done again. */
-static void begin_again(run *r, bool lockstep) {
-    if (!r->learner_ready) {
+static void handle_state(run *r, const plant_state *taken) {
+    if (!r->learner_ready && !begin_learner(r, &taken->state)) {
         return;
     }
-    if (lockstep && !r->diverged) {
-        rollback_return(&r->kept, &r->controller, &r->folder, r->error);
-        r->finished = r->kept.place.episodes;
-        fprintf(stderr, "the plant has started anew; back to the end of episode %d\n", r->finished);
-    } else {
-        lh_controller_begin(&r->controller);
-        rollback_keep(&r->kept, &r->controller, r->finished, &r->folder);
-        fprintf(stderr, "the plant has put the robot back; the episode begins anew\n");
+    if (taken->begins) {
+        begin_session(r, &taken->state);
     }
-    r->diverged = false;
+    r->gap = r->gap || taken->gap;
+    if (taken->state.lockstep == 0 && taken->state.armed == 0) {
+        hold(r, &taken->state);
+        trouble_useful(&r->trouble, false, bus_now());
+    } else {
+        decide(r, &taken->state);
+    }
 }
 
-static void handle_state(run *r, const limphome_robot_state_t *state) {
-    switch (session_judge(&r->session, state->session, state->seq, state->lockstep != 0, bus_now())) {
-        case SESSION_NEW:
-            decide(r, state);
-            break;
-        case SESSION_REPEATED:
-            r->repeated++;
-            bus_send_command(&r->bus, &r->command, true);
-            break;
-        case SESSION_RESET:
-            if (r->session.restarted) {
-                r->session.restarted = false;
-                r->reset_sent = false;
-                begin_again(r, state->lockstep != 0);
-            }
-            send_reset(r);
-            break;
-        case SESSION_OLD:
-        case SESSION_OTHER:
+static const char *cause(session_break broken) {
+    switch (broken) {
+        case SESSION_FAULTED:
+            return "the plant has put the robot back after a fault";
+        case SESSION_ENDED:
+            return "the plant has started anew";
+        case SESSION_MISPLACED:
+            return "the plant has obeyed something else";
+        case SESSION_UNBROKEN:
         default:
-            r->stale++;
-            break;
+            return "";
+    }
+}
+
+/* The session has ended without our asking. Of a simulation, all since it was last reset is done again, so that the run
+ * ends as if unbroken; but one that diverged would do so again, and what happened to a real machine has happened: there
+ * the episode begins anew. */
+static void handle_break(run *r) {
+    const session_break broken = plant_link_broken(&r->link);
+    const limphome_robot_state_t *newest = &r->link.newest;
+    if (broken == SESSION_UNBROKEN || !r->learner_ready) {
+        return;
+    }
+    if (broken != SESSION_FAULTED && newest->lockstep != 0 && newest->reset == LIMPHOME_ROBOT_STATE_T_TO_INITIAL_POSE) {
+        rollback_return(&r->kept, &r->controller, &r->folder, r->error);
+        r->finished = r->kept.place.episodes;
+        r->gap = false;
+        notice_print(&r->restarts, bus_now(), "%s; back to the end of episode %" PRId32, cause(broken), r->finished);
+    } else {
+        r->restarted = true;
+        notice_print(&r->restarts, bus_now(), "%s; the episode begins anew", cause(broken));
     }
 }
 
 static void send_status(run *r, int8_t condition) {
-    limphome_status_t status = r->bus.counts;
+    limphome_status_t status = r->link.bus.counts;
     status.utime = bus_now_us();
     status.process = LIMPHOME_STATUS_T_CONTROLLER;
     status.condition = condition;
-    status.session = r->session.session;
-    status.seq = r->session.seq;
+    status.reason = r->trouble.reason;
+    status.session = r->link.session.session;
+    status.seq = r->link.session.seq;
     status.wall_time = bus_now() - r->started;
-    status.wait_time = r->bus.wait_time;
+    status.wait_time = r->link.bus.wait_time;
     status.decisions = r->decisions;
     status.episodes = r->finished;
-    status.rejected_session = r->stale;
-    status.duplicates += r->repeated;
     convert_limits(&r->controller, &status);
-    bus_send_status(&r->bus, &status);
+    bus_send_status(&r->link.bus, &status);
+}
+
+static void send_status_each_second(run *r) {
+    if (bus_now() >= r->status_at) {
+        const int8_t condition = r->learner_ready ? LIMPHOME_STATUS_T_RUNNING : LIMPHOME_STATUS_T_WAITING;
+        send_status(r, trouble_condition(&r->trouble, condition));
+        r->status_at = bus_now() + 1;
+    }
 }
 
 bool run_decide(run *r, const volatile sig_atomic_t *stop) {
     while (*stop == 0 && r->error[0] == '\0' && r->finished < r->last) {
-        if (!bus_wait(&r->bus, r->settings.link.resend_s)) {
+        session_paused(&r->link.session, trouble_look(&r->trouble, &r->link, bus_now()));
+        if (!plant_link_wait(&r->link, r->settings.link.resend_s)) {
             return fail_with(r->error, "the bus is broken");
         }
-        int64_t ended;
-        if (bus_take_fault(&r->bus, &ended)) {
-            session_over(&r->session, ended);
-            r->diverged = r->session.over;
+        handle_break(r);
+        plant_link_answer(&r->link, next_episode(r));
+        plant_state taken;
+        if (plant_link_take(&r->link, &taken)) {
+            handle_state(r, &taken);
         }
-        limphome_robot_state_t state;
-        if (bus_take(&r->bus, &state)) {
-            handle_state(r, &state);
-        }
-        if (!recording_good(&r->folder.recording, r->error)) {
-            return false;
-        }
-        if (bus_now() >= r->status_at) {
-            send_status(r, r->learner_ready ? LIMPHOME_STATUS_T_RUNNING : LIMPHOME_STATUS_T_WAITING);
-            r->status_at = bus_now() + 1;
-        }
+        send_status_each_second(r);
+        r->gave_up = recording_good(&r->folder.recording, r->error) && !trouble_bears(&r->trouble, bus_now(), r->error);
     }
     return r->error[0] == '\0' && r->finished >= r->last;
 }
@@ -275,6 +300,6 @@ bool run_close(run *r, bool complete) {
     }
     send_status(r, failed ? LIMPHOME_STATUS_T_FAULT : LIMPHOME_STATUS_T_FINISHED);
     run_folder_close(&r->folder, r->error);
-    bus_close(&r->bus);
+    bus_close(&r->link.bus);
     return r->error[0] == '\0';
 }

@@ -5,15 +5,15 @@
 #include <signal.h>
 #include <stdbool.h>
 
-#include "bus.h"
 #include "command_line.h"
 #include "fail.h"
 #include "learned.h"
 #include "limphome/controller.h"
-#include "limphome_velocity_command_t.h"
+#include "notice.h"
+#include "plant_link.h"
 #include "rollback.h"
 #include "run_folder.h"
-#include "session.h"
+#include "trouble.h"
 #include "urdf.h"
 
 typedef struct run {
@@ -22,9 +22,10 @@ typedef struct run {
     lh_config config;
     int64_t hash; /* of settings and robot: what a resumed run must share */
     run_folder folder;
-    bus bus;
-    session_tracker session;
+    plant_link link;
+    trouble trouble;
     char error[ERROR_LENGTH]; /* why it failed; "" while it has not */
+    bool gave_up;             /* it failed as there was nothing to decide on for too long */
 
     /* how the learner begins, once the first state has told which actuators obey */
     bool evaluating; /* drive with the policy in `learned`, without learning */
@@ -33,19 +34,18 @@ typedef struct run {
 
     bool learner_ready;
     lh_controller controller;
-    rollback kept;                       /* where the plant was last reset */
-    bool diverged;                       /* the plant has told that it ended the session by a fault */
-    limphome_velocity_command_t command; /* answer to the newest state, to be repeated when asked again */
-    bool reset_sent;                     /* a reset request for the present session is out */
+    rollback kept;  /* where the plant was last put into its initial pose */
+    bool restarted; /* the session that is asked for is one that no episode asked for */
+    bool gap;       /* the next step is not what the decision before it led to */
 
     int32_t finished; /* episodes, those of the policy or checkpoint among them */
     int32_t last;     /* episode after which the run is complete */
     int64_t decisions;
     int64_t utime;    /* plant time of the newest state decided on [us] */
-    int64_t stale;    /* messages of past states or other sessions */
-    int64_t repeated; /* states heard again */
     double started;   /* monotonic [s] */
     double status_at; /* next status is due [s] */
+    notice invalid;   /* states that the library refuses */
+    notice restarts;
 } run;
 
 /* Reads all that a run follows from; of a run that is to be gone on with it prints after which episode it would be.

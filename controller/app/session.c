@@ -1,57 +1,149 @@
 #include "session.h"
 
-void session_init(session_tracker *tracker, double timeout) {
-    *tracker = (session_tracker){.timeout = timeout};
+enum { MISPLACED_PROVE = 3, SLACK = 3 };
+
+/* splitmix64; 0 stands for no nonce. */
+static int64_t draw_nonce(session_tracker *t) {
+    uint64_t z = 0;
+    while (z == 0) {
+        z = t->random += 0x9e3779b97f4a7c15u;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        z ^= z >> 31;
+    }
+    return (int64_t)z;
 }
 
-void session_reset(session_tracker *tracker) {
-    tracker->resetting = true;
+void session_init(session_tracker *tracker, int64_t sender, uint64_t seed, double timeout, double period) {
+    *tracker = (session_tracker){.timeout = timeout, .period = period, .sender = sender, .random = seed};
+}
+
+static void begin_asking(session_tracker *t, double now) {
+    t->asking = true;
+    t->nonce = draw_nonce(t);
+    t->asked = now;
+    t->misplaced = 0;
+}
+
+void session_reset(session_tracker *tracker, double now) {
+    begin_asking(tracker, now);
+}
+
+static void remember(session_tracker *t, int64_t session) {
+    t->past[t->past_count % SESSIONS_REMEMBERED] = session;
+    t->past_count++;
+}
+
+static bool is_past(const session_tracker *t, int64_t session) {
+    const unsigned count = t->past_count < SESSIONS_REMEMBERED ? t->past_count : SESSIONS_REMEMBERED;
+    for (unsigned i = 0; i < count; i++) {
+        if (t->past[i] == session) {
+            return true;
+        }
+    }
+    return false;
 }
 
 void session_over(session_tracker *tracker, int64_t session) {
     tracker->over = tracker->over || (tracker->known && session == tracker->session);
 }
 
-/* A session we have not heard of. It is the answer to our reset, or the plant was restarted. */
-static session_verdict judge_other(session_tracker *tracker, int64_t session, int64_t seq, bool lockstep, double now) {
-    if (tracker->resetting && (seq == 0 || !lockstep)) {
-        tracker->session = session;
-        tracker->seq = seq;
-        tracker->heard = now;
-        tracker->resetting = tracker->over = false;
-        return SESSION_NEW;
-    }
-    if (!tracker->over && now - tracker->heard < tracker->timeout) {
-        return SESSION_OTHER;
-    }
-    tracker->session = session; /* ours is over or silent: take up this one, from a reset on */
-    tracker->heard = now;
-    tracker->over = false;
-    tracker->resetting = true;
-    tracker->restarted = true;
-    return SESSION_RESET;
+void session_paused(session_tracker *tracker, double seconds) {
+    tracker->heard += seconds;
 }
 
-session_verdict session_judge(session_tracker *tracker, int64_t session, int64_t seq, bool lockstep, double now) {
-    if (!tracker->known) {
-        *tracker = (session_tracker){
-            .timeout = tracker->timeout, .known = true, .resetting = true, .session = session, .heard = now};
-        return SESSION_RESET;
+static bool is_silent(const session_tracker *t, double now) {
+    return now - t->heard >= t->timeout;
+}
+
+/* Whether the plant can have come to `seq` by `now`, having been at `from` at `since`. */
+static bool can_be_there(const session_tracker *t, int64_t seq, int64_t from, double since, double now) {
+    return (double)(seq - from) <= (now - since) / t->period + SLACK;
+}
+
+static session_verdict place(session_tracker *t, int64_t seq, double now, session_verdict verdict) {
+    t->seq = seq;
+    t->heard = t->placed = now;
+    t->misplaced = 0;
+    return verdict;
+}
+
+/* Whether enough was heard that is not as it should be, and nothing that is, to do something about it. */
+static bool is_proven(session_tracker *t, double now) {
+    t->misplaced++;
+    return t->misplaced >= MISPLACED_PROVE && is_silent(t, now);
+}
+
+/* A state of a session of ours that is not where it should be. Once it may be a late copy or an invention; time and
+ * again, and never the right one between, it proves that the plant is somewhere else than we are. */
+static session_verdict misplaced(session_tracker *t, const session_label *label, double now) {
+    if (!is_proven(t, now)) {
+        return label->seq < t->seq ? SESSION_OLD : SESSION_AHEAD;
     }
-    if (session != tracker->session) {
-        return judge_other(tracker, session, seq, lockstep, now);
+    begin_asking(t, now);
+    t->session = label->session;
+    t->broken = SESSION_MISPLACED;
+    return place(t, label->seq, now, SESSION_RESET);
+}
+
+/* The answer to our request. */
+static session_verdict take_up(session_tracker *t, const session_label *label, double now) {
+    const bool possible =
+        label->seq >= 0 && (label->lockstep ? label->seq == 0 : can_be_there(t, label->seq, 0, t->asked, now));
+    if (!possible) {
+        return misplaced(t, label, now);
     }
-    tracker->heard = now;
-    if (tracker->resetting) {
-        return SESSION_RESET;
+    remember(t, t->session);
+    t->session = label->session;
+    t->asking = t->over = false;
+    return place(t, label->seq, now, SESSION_NEW);
+}
+
+/* Asks for a reset of the session that was heard. */
+static session_verdict ask(session_tracker *t, const session_label *label, double now) {
+    const bool anothers = label->sender != 0 && label->sender != t->sender;
+    t->session = label->session;
+    return place(t, label->seq, now, anothers ? SESSION_DENIED : SESSION_RESET);
+}
+
+/* A session that we have not asked for: the plant was restarted, or obeys another. */
+static session_verdict judge_other(session_tracker *t, const session_label *label, double now) {
+    const bool follows = t->over && label->sender == 0; /* after a fault the plant's session is nobody's */
+    if (t->known && !follows && !is_silent(t, now)) {
+        return SESSION_OTHER;
     }
-    if (seq == tracker->seq) {
-        return SESSION_REPEATED;
+    if (t->known && !t->asking) {
+        t->broken = t->over ? SESSION_FAULTED : SESSION_ENDED;
     }
-    /* In lockstep the plant waits for us, so only the next number can follow; in real time some may be lost. */
-    if (seq < tracker->seq || (lockstep && seq != tracker->seq + 1)) {
-        return SESSION_OLD;
+    if (!t->asking) {
+        begin_asking(t, now);
     }
-    tracker->seq = seq;
-    return SESSION_NEW;
+    t->known = true;
+    t->over = false;
+    return ask(t, label, now);
+}
+
+/* In lockstep the plant waits for us, so only the next number can follow; in real time some may be lost. */
+static session_verdict judge_ours(session_tracker *t, const session_label *label, double now) {
+    if (label->nonce != t->nonce || label->sender != t->sender) {
+        return SESSION_OTHER;
+    }
+    if (label->seq == t->seq) {
+        return place(t, label->seq, now, SESSION_REPEATED);
+    }
+    t->over = false; /* it lives, whatever was told of it */
+    const bool next = label->seq > t->seq && (label->lockstep ? label->seq == t->seq + 1
+                                                              : can_be_there(t, label->seq, t->seq, t->placed, now));
+    return next ? place(t, label->seq, now, SESSION_NEW) : misplaced(t, label, now);
+}
+
+session_verdict session_judge(session_tracker *tracker, const session_label *label, double now) {
+    if (is_past(tracker, label->session) && !is_proven(tracker, now)) {
+        return SESSION_OLD; /* a late copy */
+    }
+    if (!tracker->known || label->session != tracker->session) {
+        const bool answers = tracker->asking && label->sender == tracker->sender && label->nonce == tracker->nonce;
+        return answers ? take_up(tracker, label, now) : judge_other(tracker, label, now);
+    }
+    return tracker->asking ? ask(tracker, label, now) : judge_ours(tracker, label, now);
 }

@@ -1,6 +1,7 @@
 """The messages of a run: what each channel carries, and the recording."""
 
 from limphome import (
+    arm_request_t,
     decision_t,
     episode_t,
     ground_truth_t,
@@ -11,13 +12,14 @@ from limphome import (
     status_t,
     velocity_command_t,
 )
-from limphome_lab.channels import COMMAND, DECISION, EPISODE, PLANNER, POLICY, RESET, STATE, STATUS, TRUTH
+from limphome_lab.channels import ARM, COMMAND, DECISION, EPISODE, PLANNER, POLICY, RESET, STATE, STATUS, TRUTH
 from limphome_lab.recording import read_log
 
 TYPES = {
     STATE: robot_state_t,
     COMMAND: velocity_command_t,
     RESET: reset_request_t,
+    ARM: arm_request_t,
     TRUTH: ground_truth_t,
     DECISION: decision_t,
     EPISODE: episode_t,

@@ -37,6 +37,7 @@ class World final : public Machine {
     // Whole time steps; what is over is left for the next time.
     void advance(double seconds) override;
     bool can_pause() const override { return true; }
+    bool can_be_carried_back() const override { return settings_.simulator.reset == SETTINGS_INITIAL_POSE; }
     // No step is done any more, until the next reset.
     bool diverged() const override { return diverged_; }
     bool truth(ground_truth_t &truth) const override;

@@ -3,7 +3,6 @@
 #include <limphome_channels.h>
 
 #include <poll.h>
-#include <sys/random.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -12,6 +11,8 @@
 #include <limits>
 #include <stdexcept>
 #include <system_error>
+
+#include "plant/capacity.h"
 
 namespace limphome {
 
@@ -23,24 +24,23 @@ double monotonic_now() {
 
 namespace {
 
+constexpr int crawlers = 2;         // the first actuators
+constexpr int most_messages = 128;  // handled at once: some 0.3 ms
+
 // Of the system call that has just failed.
 std::string reason() {
     return std::generic_category().message(errno);
-}
-
-// Sessions only have to differ from one another, across processes too; nothing that is simulated depends on them.
-int64_t random_session() {
-    int64_t session = 0;
-    if (getrandom(&session, sizeof session, 0) != static_cast<ssize_t>(sizeof session)) {
-        throw std::runtime_error("no random numbers from the system: " + reason());
-    }
-    return session;
 }
 
 template <typename Message>
 bool decode_exactly(const lcm::ReceiveBuffer *buffer, Message &message) {
     const int size = static_cast<int>(buffer->data_size);
     return message.decode(buffer->data, 0, size) == size;
+}
+
+// The controller computes in single precision: what it takes for the speed of [action].
+double as_commanded(double speed) {
+    return static_cast<double>(static_cast<float>(speed));
 }
 
 }  // namespace
@@ -50,37 +50,56 @@ Link::Link(const std::string &url, const settings &s, int num_actuators)
       lockstep_(s.simulator.pace == SETTINGS_LOCKSTEP),
       resend_(s.link.resend_s),
       sender_timeout_(s.link.sender_timeout_s),
+      command_timeout_(s.link.command_timeout_s),
+      crawler_speed_(as_commanded(s.action.crawler_speed)),
+      joint_speed_(as_commanded(s.action.joint_speed)),
       num_actuators_(num_actuators),
-      sender_heard_(-std::numeric_limits<double>::infinity()) {
+      owner_heard_(-std::numeric_limits<double>::infinity()),
+      arming_(!lockstep_, s.link.operator_timeout_s) {
     lcm_.subscribe(LIMPHOME_CHANNEL_COMMAND, &Link::receive_command, this);
     lcm_.subscribe(LIMPHOME_CHANNEL_RESET, &Link::receive_reset, this);
-    begin_session();
+    lcm_.subscribe(LIMPHOME_CHANNEL_ARM, &Link::receive_arm, this);
+    begin_session(std::nullopt);
 }
 
-void Link::begin_session() {
-    session_ = random_session();
+void Link::begin_session(const std::optional<reset_request_t> &request) {
+    session_ = random_number();
+    session_sender_ = request ? request->sender : 0;
+    session_nonce_ = request ? request->nonce : 0;
     next_seq_ = 0;
     answered_ = -1;
+    sent_.clear();
     command_.reset();
-    reset_requested_ = false;
+    request_.reset();
 }
 
 void Link::send_state(robot_state_t state) {
     state.session = session_;
     state.seq = next_seq_++;
+    state.reset_sender = session_sender_;
+    state.reset_nonce = session_nonce_;
     state.lockstep = lockstep_ ? 1 : 0;
+    state.armed = arming_.armed() ? 1 : 0;
+    state.challenge = arming_.challenge();
     state_ = state;
+    publish_state();
+    sent_.push_back({state_.seq, state_sent_, arming_.armed()});
+    while (lockstep_ ? sent_.size() > 1 : sent_.front().at < state_sent_ - command_timeout_) {
+        sent_.pop_front();
+    }
+}
+
+void Link::publish_state() {
     state_sent_ = monotonic_now();
+    state_.sent = std::llround(state_sent_ * 1e6);
     lcm_.publish(LIMPHOME_CHANNEL_STATE, &state_);
 }
 
 void Link::resend_state_if_due() {
-    if (monotonic_now() - state_sent_ < resend_) {
-        return;
+    if (monotonic_now() - state_sent_ >= resend_) {
+        counts_.resent++;
+        publish_state();
     }
-    state_sent_ = monotonic_now();
-    counts_.resent++;
-    lcm_.publish(LIMPHOME_CHANNEL_STATE, &state_);
 }
 
 void Link::send_truth(ground_truth_t truth) {
@@ -99,58 +118,90 @@ void Link::wait(double timeout) {
     pollfd bus{lcm_.getFileno(), POLLIN, 0};
     int ready = poll(&bus, 1, static_cast<int>(std::ceil(timeout * 1000)));
     wait_time_ += monotonic_now() - begin;
-    for (; ready > 0; ready = poll(&bus, 1, 0)) {
+    for (int handled = 0; ready > 0 && handled < most_messages; handled++) {
         if (lcm_.handle() != 0) {
             throw std::runtime_error("the bus is broken: a message that is there cannot be read");
         }
+        ready = poll(&bus, 1, 0);
     }
+    counts_.overruns += ready > 0 ? 1 : 0;
     if (ready < 0 && errno != EINTR) {
         throw std::runtime_error("the bus is broken: " + reason());
     }
 }
 
-// One sender is obeyed until it has been silent for a while; then the next one that speaks is.
-bool Link::accept_sender(int64_t sender) {
-    const double now = monotonic_now();
-    if (sender != sender_ && now - sender_heard_ < sender_timeout_) {
-        counts_.rejected_sender++;
+bool Link::is_sound(const lcm::ReceiveBuffer *buffer, velocity_command_t &command) {
+    if (!decode_exactly(buffer, command) || command.num_actuators != num_actuators_) {
+        counts_.rejected_malformed++;
         return false;
     }
-    sender_ = sender;
-    sender_heard_ = now;
-    return true;
+    const bool finite =
+        std::all_of(command.velocity, command.velocity + num_actuators_, [](double v) { return std::isfinite(v); });
+    counts_.rejected_non_finite += finite ? 0 : 1;
+    return finite;
+}
+
+// Of this session, and from its owner.
+bool Link::is_ours(const velocity_command_t &command) {
+    if (command.session != session_ || command.seq > state_.seq || command.seq < 0) {
+        counts_.rejected_session++;
+        return false;
+    }
+    const bool owner = owned() && command.sender == session_sender_;
+    counts_.rejected_sender += owner ? 0 : 1;
+    return owner;
+}
+
+// The state that a command may answer at `now`: in lockstep the one that is waited upon; null: none, it is past.
+const Link::Sent *Link::answered_state(int64_t seq, double now) const {
+    const int64_t place = seq - sent_.front().seq;  // they have successive numbers, up to the newest
+    if (place < 0) {
+        return nullptr;
+    }
+    const Sent &state = sent_[static_cast<std::size_t>(place)];
+    return lockstep_ || now - state.at <= command_timeout_ ? &state : nullptr;
+}
+
+// A robot that is commanded by mistake goes no faster than it was set up to.
+void Link::limit(velocity_command_t &command) {
+    bool limited = false;
+    for (int a = 0; a < num_actuators_; a++) {
+        const double most = a < crawlers ? crawler_speed_ : joint_speed_;
+        const double within = std::clamp(command.velocity[a], -most, most);
+        limited = limited || within != command.velocity[a];
+        command.velocity[a] = within;
+    }
+    counts_.limited += limited ? 1 : 0;
 }
 
 void Link::receive_command(const lcm::ReceiveBuffer *buffer, const std::string &) {
     velocity_command_t command{};
     counts_.received++;
-    if (!decode_exactly(buffer, command) || command.num_actuators != num_actuators_) {
-        counts_.rejected_malformed++;
+    if (!is_sound(buffer, command) || !is_ours(command)) {
         return;
     }
-    if (!std::all_of(command.velocity, command.velocity + num_actuators_, [](double v) { return std::isfinite(v); })) {
-        counts_.rejected_non_finite++;
+    const double now = monotonic_now();
+    const Sent *state = answered_state(command.seq, now);
+    if (state == nullptr) {
+        (lockstep_ ? counts_.duplicates : counts_.late)++;
         return;
     }
-    if (command.session != session_ || command.seq > state_.seq) {
-        counts_.rejected_session++;
-        return;
-    }
-    if (!accept_sender(command.sender)) {
-        return;
-    }
-    // In lockstep only the state that is waited upon can be answered; in real time an answer may come late, once.
-    if ((lockstep_ && command.seq != state_.seq) || command.seq <= answered_) {
+    owner_heard_ = now;
+    if (command.seq <= answered_ || (command_ && command.seq <= command_->command.seq)) {
         counts_.duplicates++;
         return;
     }
-    command_ = command;
+    if (!state->armed) {  // a sign of life, no more
+        return;
+    }
+    limit(command);
+    command_ = TimedCommand{command, state->at};
 }
 
 void Link::receive_reset(const lcm::ReceiveBuffer *buffer, const std::string &) {
     reset_request_t request{};
     counts_.received++;
-    if (!decode_exactly(buffer, request)) {
+    if (!decode_exactly(buffer, request) || request.sender == 0 || request.nonce == 0) {
         counts_.rejected_malformed++;
         return;
     }
@@ -158,19 +209,68 @@ void Link::receive_reset(const lcm::ReceiveBuffer *buffer, const std::string &) 
         counts_.rejected_session++;
         return;
     }
-    if (accept_sender(request.sender)) {
-        reset_requested_ = true;
-        requested_episode_ = request.episode;
+    const double now = monotonic_now();
+    if (request.sender != owner_) {
+        if (!owner_is_silent(now)) {
+            counts_.rejected_sender++;
+            return;
+        }
+        arming_.disarm(status_t::CONTROLLER_SILENT, now);
+        owner_ = request.sender;
+    }
+    owner_heard_ = now;
+    request_ = request;
+}
+
+void Link::receive_arm(const lcm::ReceiveBuffer *buffer, const std::string &) {
+    arm_request_t request{};
+    counts_.received++;
+    if (!decode_exactly(buffer, request)) {
+        counts_.rejected_malformed++;
+        return;
+    }
+    const double now = monotonic_now();
+    switch (arming_.hear(request, owned() && !owner_is_silent(now), now)) {
+        case Arming::Verdict::taken:
+            break;
+        case Arming::Verdict::malformed:
+            counts_.rejected_malformed++;
+            break;
+        case Arming::Verdict::challenge_failed:
+            counts_.rejected_challenge++;
+            break;
+        case Arming::Verdict::other_sender:
+            counts_.rejected_sender++;
+            break;
     }
 }
 
-std::optional<velocity_command_t> Link::take_command() {
-    std::optional<velocity_command_t> command;
+void Link::pass() {
+    const double now = monotonic_now();
+    arming_.pass(now);
+    if (owner_is_silent(now)) {
+        arming_.disarm(status_t::CONTROLLER_SILENT, now);
+    }
+}
+
+void Link::excuse(double seconds) {
+    arming_.excuse(seconds);
+    owner_heard_ += seconds;
+}
+
+std::optional<TimedCommand> Link::take_command() {
+    std::optional<TimedCommand> command;
     command.swap(command_);
     if (command) {
-        answered_ = command->seq;
+        answered_ = command->command.seq;
     }
     return command;
+}
+
+std::optional<reset_request_t> Link::take_reset() {
+    std::optional<reset_request_t> request;
+    request.swap(request_);
+    return request;
 }
 
 }  // namespace limphome

@@ -1,9 +1,15 @@
-// The plant's half of the link: states out, commands and reset requests in, each checked, counted and, where it
-// belongs to a past session or another sender, dropped.
+// The plant's half of the link: states out, commands, reset and arm requests in, each checked, counted and, where it
+// belongs to a past session, to another sender or to a state that is too old, dropped.
+//
+// A session is owned by the sender that asked for it, and obeys nobody else; one that began by itself, when the plant
+// started or after a fault, obeys nobody. So a controller asks for a reset before it is obeyed. Who owned a session
+// last asks first: another's request is taken only once that one has been silent for [link] sender_timeout_s.
 #pragma once
 
 #include <settings.h>
 
+#include <deque>
+#include <limphome/arm_request_t.hpp>
 #include <limphome/ground_truth_t.hpp>
 #include <limphome/reset_request_t.hpp>
 #include <limphome/robot_state_t.hpp>
@@ -12,6 +18,7 @@
 #include <optional>
 #include <string>
 
+#include "plant/arming.h"
 #include "plant/bus.h"
 
 namespace limphome {
@@ -19,15 +26,22 @@ namespace limphome {
 // Monotonic clock [s].
 double monotonic_now();
 
+// A command to be obeyed, and when the state that it answers was sent [s, monotonic]: its age counts from there.
+struct TimedCommand {
+    velocity_command_t command;
+    double born;
+};
+
 class Link {
    public:
     // Joins the bus; throws std::runtime_error if it cannot. An empty url means LCM's default.
     Link(const std::string &url, const settings &s, int num_actuators);
 
-    // Begins a new session: forgets what was received, numbers states from 0 again.
-    void begin_session();
+    // Begins a new session, which `request` has asked for, or which nobody has: forgets what was received, numbers
+    // states from 0 again.
+    void begin_session(const std::optional<reset_request_t> &request);
 
-    // Puts a new state on the bus, filling in session and seq.
+    // Puts a new state on the bus, filling in all that is about the link.
     void send_state(robot_state_t state);
     // Puts the newest state on the bus again if it has been unanswered for the resend interval. Not at every message
     // that does not answer it: a late repetition would then breed repetitions for ever.
@@ -35,46 +49,76 @@ class Link {
     void send_truth(ground_truth_t truth);
     void send_status(status_t status);
 
-    // Waits at most `timeout` [s] and takes in all messages that are there. Throws std::runtime_error if the bus
-    // breaks.
+    // Waits at most `timeout` [s] and takes in the messages that are there, but only so many at once that the caller
+    // gets on under a flood. Throws std::runtime_error if the bus breaks.
     void wait(double timeout);
 
-    // The newest command, once, that may be obeyed: of this session and sender and, in lockstep, for the newest state.
-    std::optional<velocity_command_t> take_command();
-    // Whether a reset of this session was asked for since the session began.
-    bool reset_requested() const { return reset_requested_; }
-    // The episode that the newest request was for.
-    int32_t requested_episode() const { return requested_episode_; }
+    // The newest command, once, that may be obeyed: of the session's owner, for the newest state in lockstep, for one
+    // that is not too old and told the plant to be armed in real time.
+    std::optional<TimedCommand> take_command();
+    // Whether a reset of this session was asked for by who may.
+    bool reset_requested() const { return request_.has_value(); }
+    // That request, once.
+    std::optional<reset_request_t> take_reset();
+
+    // Whether the plant may move. Call pass() often: there silence disarms.
+    Arming &arming() { return arming_; }
+    void pass();
+    // The plant has heard nobody for so long [s], nor could it have.
+    void excuse(double seconds);
 
     // Of the newest state sent.
     int64_t session() const { return state_.session; }
     int64_t seq() const { return state_.seq; }
+    // Whether a controller owns the session.
+    bool owned() const { return session_sender_ != 0; }
+    // The newest state whose command was handed out; -1: none of this session.
+    int64_t answered() const { return answered_; }
     const status_t &counts() const { return counts_; }
     double wait_time() const { return wait_time_; }
     // For what else the program has to say or hear.
     Bus &bus() { return lcm_; }
 
    private:
+    // What is remembered of a state: a command that answers it is judged by that.
+    struct Sent {
+        int64_t seq;
+        double at;  // [s, monotonic]
+        bool armed;
+    };
+
+    void publish_state();
     void receive_command(const lcm::ReceiveBuffer *buffer, const std::string &channel);
     void receive_reset(const lcm::ReceiveBuffer *buffer, const std::string &channel);
-    bool accept_sender(int64_t sender);
+    void receive_arm(const lcm::ReceiveBuffer *buffer, const std::string &channel);
+    bool is_sound(const lcm::ReceiveBuffer *buffer, velocity_command_t &command);
+    bool is_ours(const velocity_command_t &command);
+    const Sent *answered_state(int64_t seq, double now) const;
+    bool owner_is_silent(double now) const { return now - owner_heard_ >= sender_timeout_; }
+    void limit(velocity_command_t &command);
 
     Bus lcm_;
     const bool lockstep_;
-    const double resend_;          // [s]
-    const double sender_timeout_;  // [s]
+    const double resend_;           // [s]
+    const double sender_timeout_;   // [s]
+    const double command_timeout_;  // [s]
+    const double crawler_speed_;    // as the controller rounds it [m/s]
+    const double joint_speed_;      // as the controller rounds it [rad/s]
     const int num_actuators_;
 
     robot_state_t state_{};  // newest state sent
     double state_sent_ = 0;  // when [s, monotonic]
+    std::deque<Sent> sent_;  // of this session, from the oldest that a command may answer
     int64_t next_seq_ = 0;
     int64_t session_ = 0;
-    int64_t sender_ = 0;  // the one obeyed
-    double sender_heard_;
-    std::optional<velocity_command_t> command_;
-    int64_t answered_ = -1;  // newest seq whose command was handed out
-    bool reset_requested_ = false;
-    int32_t requested_episode_ = 0;
+    int64_t session_sender_ = 0;  // who owns the session; 0: nobody
+    int64_t session_nonce_ = 0;
+    int64_t owner_ = 0;  // who owned one last; 0: nobody yet
+    double owner_heard_;
+    std::optional<TimedCommand> command_;
+    int64_t answered_ = -1;
+    std::optional<reset_request_t> request_;
+    Arming arming_;
     status_t counts_{};
     double wait_time_ = 0;
 };

@@ -15,6 +15,23 @@ constexpr int most_faults = 10;           // in a row
 constexpr double real_time_slice = 0.01;  // the clock is followed this finely [s]
 constexpr double at_rest[max_actuators] = {};
 
+const char *words(int8_t reason) {
+    switch (reason) {
+        case status_t::NOT_YET_ARMED:
+            return "nobody has armed it yet";
+        case status_t::CONTROLLER_SILENT:
+            return "the controller is silent";
+        case status_t::OPERATOR_SILENT:
+            return "the operator is silent";
+        case status_t::MACHINE_FAILED:
+            return "the machine has failed";
+        case status_t::BY_OPERATOR:
+            return "the operator has said so";
+        default:
+            return "";
+    }
+}
+
 }  // namespace
 
 Loop::Loop(Machine &machine, Link &link, const settings &s)
@@ -45,10 +62,10 @@ bool Loop::follow(const volatile std::sig_atomic_t *stop) {
     const bool lockstep = settings_.simulator.pace == SETTINGS_LOCKSTEP;
     begin();
     while (*stop == 0) {
-        if (link_.reset_requested()) {
+        if (const auto request = link_.take_reset()) {
             faults_in_a_row_ = session_decisions_ > 0 ? 0 : faults_in_a_row_;
-            episode_ = link_.requested_episode();
-            restart();
+            episode_ = request->episode;
+            restart(request);
         } else if (lockstep ? advance_lockstep() : advance_real_time()) {
             decisions_++;
             session_decisions_++;
@@ -60,37 +77,44 @@ bool Loop::follow(const volatile std::sig_atomic_t *stop) {
         }
         report_each_second();
     }
-    report(status_t::FINISHED);
+    report(status_t::FINISHED, status_t::NONE);
     return true;
 }
 
-void Loop::restart() {
+void Loop::restart(const std::optional<reset_request_t> &request) {
     machine_.command(at_rest);
-    machine_.reset(episode_);
-    link_.begin_session();
+    if (machine_.can_be_carried_back() || !request) {
+        const double begun = monotonic_now();
+        machine_.reset(episode_);
+        link_.excuse(monotonic_now() - begun);
+    }
+    link_.begin_session(request);
     session_decisions_ = 0;
     begin();
 }
 
 // The state that diverged is not published. The report tells the controller that the session is over.
 bool Loop::recover() {
-    std::fprintf(stderr, "the machine diverged in decision %" PRId64 " of its session and is reset\n",
+    const double now = monotonic_now();
+    notice_print(&divergences_, now, "the machine diverged in decision %" PRId64 " of its session and is reset",
                  session_decisions_);
     faults_++;
     faults_in_a_row_++;
-    report(status_t::FAULT);
+    link_.arming().disarm(status_t::MACHINE_FAILED, now);
+    report(status_t::FAULT, status_t::MACHINE_FAILED);
     if (faults_in_a_row_ >= most_faults) {
         std::fprintf(stderr, "it did so in %d sessions in a row; giving up\n", faults_in_a_row_);
         return false;
     }
-    restart();
+    restart(std::nullopt);
     return true;
 }
 
 void Loop::begin() {
-    obeyed_ = velocity_command_t{};
-    obeyed_at_ = clock_ = monotonic_now();
-    machine_.command(obeyed_.velocity);
+    clock_ = monotonic_now();
+    obeyed_ = {{}, clock_};
+    held_ = false;
+    machine_.command(at_rest);
     publish();
 }
 
@@ -100,6 +124,8 @@ void Loop::publish() {
     for (int a = 0; a < machine_.num_actuators(); a++) {
         state.actuator_health[a] = static_cast<int8_t>(machine_.health(a));
     }
+    state.reset = machine_.can_be_carried_back() ? robot_state_t::TO_INITIAL_POSE : robot_state_t::WHERE_IT_IS;
+    state.held = held_ ? 1 : 0;
     link_.send_state(state);
     ground_truth_t truth{};
     if (machine_.truth(truth)) {
@@ -116,22 +142,48 @@ bool Loop::advance_lockstep() {
         }
         return false;
     }
-    machine_.command(command->velocity);
+    machine_.command(command->command.velocity);
     machine_.advance(settings_.episode.decision_period_s);
     return true;
 }
 
-void Loop::obey() {
-    const double now = monotonic_now();
-    if (const auto command = link_.take_command()) {
-        obeyed_ = *command;
-        obeyed_at_ = now;
+// What was commanded before says nothing of how to move from now on.
+void Loop::heed_arming() {
+    const Arming &arming = link_.arming();
+    if (arming.armed() && !armed_) {
+        obeyed_ = {{}, monotonic_now()};
     }
-    const double too_old = now - obeyed_at_ - settings_.link.command_timeout_s;
-    const double share = std::clamp(1 - too_old / ramp_time, 0.0, 1.0);
-    late_ += share < 1 ? 1 : 0;
+    if (arming.armed() != armed_ || arming.reason() != reason_) {
+        armed_ = arming.armed();
+        reason_ = arming.reason();
+        if (armed_) {
+            notice_print(&armings_, monotonic_now(), "armed");
+        } else {
+            notice_print(&disarmings_, monotonic_now(), "not armed: %s", words(reason_));
+        }
+    }
+}
+
+// 1 while the newest command is fresh and the plant armed, then down to 0.
+double Loop::share_obeyed(double now) {
+    double overdue = now - obeyed_.born - settings_.link.command_timeout_s;
+    if (!link_.arming().armed()) {
+        overdue = std::max(overdue, now - link_.arming().disarmed_at());
+    }
+    return std::clamp(1 - overdue / ramp_time, 0.0, 1.0);
+}
+
+void Loop::obey() {
+    link_.pass();
+    heed_arming();
+    const auto command = link_.take_command();
+    if (command && armed_) {
+        obeyed_ = *command;
+    }
+    const double share = share_obeyed(monotonic_now());
+    held_ = held_ || share < 1;
     double velocity[max_actuators];
-    std::transform(obeyed_.velocity, obeyed_.velocity + max_actuators, velocity,
+    std::transform(obeyed_.command.velocity, obeyed_.command.velocity + max_actuators, velocity,
                    [share](double v) { return v * share; });
     machine_.command(velocity);
 }
@@ -140,6 +192,7 @@ bool Loop::advance_real_time() {
     const double period = settings_.episode.decision_period_s;
     const long slices = std::max(1L, std::lround(period / real_time_slice));
     const double slice = period / static_cast<double>(slices);
+    held_ = false;
     for (long done = 1; done <= slices; done++) {
         obey();
         machine_.advance(slice);
@@ -152,32 +205,46 @@ bool Loop::advance_real_time() {
             return false;
         }
     }
+    held_ = held_ || link_.answered() != link_.seq();
     clock_ = std::max(clock_ + period, monotonic_now() - period);  // after a long stall, do not hurry to catch up
     return true;
 }
 
-void Loop::report(int8_t condition) {
+void Loop::report(int8_t condition, int8_t reason) {
     status_t status = link_.counts();
     const double now = monotonic_now();
     status.utime = std::llround(now * 1e6);
     status.process = status_t::PLANT;
     status.condition = condition;
+    status.reason = reason;
     status.session = link_.session();
     status.seq = link_.seq();
     status.wall_time = now - started_;
     status.wait_time = link_.wait_time();
     status.simulated_time = machine_.simulated_time();
     status.decisions = decisions_;
-    status.late = late_;
     status.saturated = machine_.saturated();
     status.faults = faults_;
     link_.send_status(status);
 }
 
 void Loop::report_each_second() {
-    if (monotonic_now() >= report_due_) {
-        report(decisions_ == 0 ? status_t::WAITING : status_t::RUNNING);
-        report_due_ = monotonic_now() + 1;
+    const double now = monotonic_now();
+    if (now < report_due_) {
+        return;
+    }
+    report_due_ = now + 1;
+    const bool flooded = link_.counts().overruns > overruns_;
+    overruns_ = link_.counts().overruns;
+    if (flooded) {
+        notice_print(&floods_, now, "more messages come than can be looked at");
+        report(status_t::DEGRADED, status_t::FLOODED);
+    } else if (!link_.arming().armed()) {
+        report(status_t::WAITING, link_.arming().reason());
+    } else if (!link_.owned()) {
+        report(status_t::WAITING, status_t::NO_CONTROLLER);
+    } else {
+        report(decisions_ == 0 ? status_t::WAITING : status_t::RUNNING, status_t::NONE);
     }
 }
 

@@ -2,9 +2,11 @@
 // time. It knows nothing of the machine but what machine.h says.
 #pragma once
 
+#include <notice.h>
 #include <settings.h>
 
 #include <csignal>
+#include <optional>
 
 #include "plant/link.h"
 #include "plant/machine.h"
@@ -22,28 +24,35 @@ class Loop {
 
    private:
     bool follow(const volatile std::sig_atomic_t *stop);
-    void begin();              // a session: publishes the state the machine is in, at rest
-    void restart();            // new session from the initial pose
+    void begin();  // a session: publishes the state the machine is in, at rest
+    void restart(const std::optional<reset_request_t> &request);  // new session, from the initial pose if it can be
     bool recover();            // from a machine that diverged; false if there is no use
     void publish();            // state and truth
     bool advance_lockstep();   // waits for the command that answers the newest state, then one decision period
     bool advance_real_time();  // follows the clock to the end of the decision period, obeying commands as they come
-    void obey();               // takes over a fresh command, or ramps to rest when the last one is too old
-    void report(int8_t condition);
+    void obey();               // takes over a fresh command, or ramps to rest: it is too old, the plant not armed
+    double share_obeyed(double now);
+    void heed_arming();  // tells of a change, forgets commands of before
+    void report(int8_t condition, int8_t reason);
     void report_each_second();
 
     Machine &machine_;
     Link &link_;
     const settings settings_;
     const double started_;
-    double clock_ = 0;      // real time: when the present decision period began [s, monotonic]
-    double obeyed_at_ = 0;  // when the newest command came [s, monotonic]
-    velocity_command_t obeyed_{};
-    double report_due_ = 0;  // [s, monotonic]
+    double clock_ = 0;  // real time: when the present decision period began [s, monotonic]
+    TimedCommand obeyed_{};
+    bool held_ = false;               // in this decision period something else than the command for it was obeyed
+    bool armed_ = false;              // when heed_arming() looked last
+    int8_t reason_ = status_t::NONE;  // why not; likewise
+    double report_due_ = 0;           // [s, monotonic]
+    int64_t overruns_ = 0;            // at the last report
     int64_t decisions_ = 0;
-    int64_t late_ = 0;
     int32_t episode_ = 0;  // that began with the newest session
     int64_t faults_ = 0;
+    notice divergences_{};
+    notice armings_{}, disarmings_{};
+    notice floods_{};
     int faults_in_a_row_ = 0;        // sessions that ended by a fault, but for those in which nothing was done
     int64_t session_decisions_ = 0;  // in this session
 };

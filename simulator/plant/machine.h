@@ -40,6 +40,10 @@ class Machine {
     // that begins, 0 before the first.
     virtual void reset(int64_t episode) = 0;
 
+    // Whether reset() does so. A machine out in the field is not carried back: it stays where it is when a controller
+    // takes it up, and reset() is called after a fault alone, to make it fit to go on from there.
+    virtual bool can_be_carried_back() const { return true; }
+
     // Wanted rates from now on: belt speeds of the crawlers [m/s], then rates of the arm joints [rad/s]; entries from
     // num_actuators() on are 0. All are 0 when a session begins or ends and when the loop ends, whatever ends it.
     virtual void command(const double velocity[max_actuators]) = 0;

@@ -3,6 +3,7 @@
 #include <sys/socket.h>
 
 #include "input.h"
+#include "limphome_channels.h"
 #include "udpm.h"
 
 static void touch(const lcm_recv_buf_t *buffer, const char *channel, void *user) {
@@ -18,7 +19,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (bus.num_subscriptions == 0) {
         char error[ERROR_LENGTH] = "";
         FUZZ_EXPECT(udpm_open(&bus, "memq://", error));
-        FUZZ_EXPECT(udpm_subscribe(&bus, "S", touch, &bus) && udpm_subscribe(&bus, "LIMPHOME_STATE", touch, &bus));
+        FUZZ_EXPECT(udpm_subscribe(&bus, "S", touch, &bus) &&
+                    udpm_subscribe(&bus, LIMPHOME_CHANNEL_STATE, touch, &bus));
     }
     if (size > 0) {
         FUZZ_EXPECT(send(bus.sender, data, size, 0) == (ssize_t)size);

@@ -1,10 +1,13 @@
 """A plant of a few lines that mistreats its link: python fake_plant.py FAULTS URL COMMAND...
 
 Starts COMMAND, a limphome-controller, and answers it in lockstep until it ends. FAULTS is JSON with the probabilities
-of what befalls a message: drop, duplicate, reorder (an earlier state comes again), garbage (a broken copy comes too);
-and `seed`. Prints JSON: the controller's exit code, how many states it answered, how often a command for one
-(session, seq) differed from an earlier one, the episodes that resets were for, how often each fault was done, and how
-much of the garbage the controller must have met: what went out before a state that it answered.
+of what befalls a message: drop, duplicate, reorder (an earlier state comes again), garbage (a broken copy comes too),
+ghost (state 0 of the session before comes when one begins), invent, ahead (of our session, with seq 2^63-1, or two
+ahead of its turn), foreign (states of another session), leap (once, the robot goes on by itself); and `seed`.
+
+Prints JSON: the controller's exit code, how many states it answered, how often a command for one (session, seq)
+differed from an earlier one, the episodes that resets were for, how often each fault was done, how much of the garbage
+the controller must have met: what went out before a state that it answered; and what it said.
 
 The robot is a point that the right crawler pushes and the swing joint steers.
 """
@@ -14,6 +17,7 @@ import math
 import random
 import subprocess
 import sys
+import tempfile
 from collections import Counter
 
 import lcm
@@ -43,12 +47,14 @@ class FakePlant:
         self.differing = 0
         self.earlier = b""
         self.begun = []  # episodes that resets were for
+        self.first = self.ghost = b""  # state 0 of this session, and of the one before
         self.heard = False  # the controller: garbage that nobody hears yet would not count
         self.garbage_before_state = self.garbage_met = 0
-        self.begin()
+        self.begin(reset_request_t())
 
-    def begin(self):
-        """The robot is put back; a new session begins."""
+    def begin(self, request):
+        """The robot is put back; a new session begins, as `request` asks for."""
+        self.owner, self.nonce = request.sender, request.nonce
         self.session = self.random.getrandbits(62)
         self.seq = self.utime = 0
         self.x = self.y = 0.0
@@ -56,10 +62,12 @@ class FakePlant:
         self.angles = list(HOME)
         self.command = None
         self.published = False
+        self.ghost, self.first = self.first, b""
 
     def state(self):
         state = robot_state_t()
         state.utime, state.session, state.seq, state.lockstep = self.utime, self.session, self.seq, 1
+        state.reset_sender, state.reset_nonce, state.armed = self.owner, self.nonce, 1
         state.num_actuators = len(self.angles)
         state.position = [self.x, self.y, 0.0]
         state.orientation = [math.cos(self.heading / 2), 0.0, 0.0, math.sin(self.heading / 2)]
@@ -80,6 +88,12 @@ class FakePlant:
         self.command = None
         self.published = False
 
+    def leap(self):
+        """Once, in the midst of a session, two states go by that nobody was told of."""
+        if self.seq == 10 and not self.done["leap"] and self.befalls("leap"):
+            self.advance([0.0] * 5)
+            self.advance([0.0] * 5)
+
     def befalls(self, fault):
         happens = self.random.random() < self.faults.get(fault, 0.0)
         self.done[fault] += happens
@@ -93,18 +107,33 @@ class FakePlant:
             self.lcm.publish(STATE, encoded + b"\0")
             state.position = [math.nan, 0.0, 0.0]
             self.lcm.publish(STATE, state.encode())
+        self.first = self.first or encoded
+        if self.ghost and self.seq == 0 and not self.published and self.befalls("ghost"):
+            self.lcm.publish(STATE, self.ghost)
         if not self.published:
             self.garbage_before_state = self.done["garbage"]
             self.published = True
         if self.befalls("drop"):
             return
         self.lcm.publish(STATE, encoded)
+        self.mislead(state)
         if self.befalls("duplicate"):
             self.lcm.publish(STATE, encoded)
         if self.earlier and self.befalls("reorder"):
             self.lcm.publish(STATE, self.earlier)
         if self.befalls("keep"):
             self.earlier = encoded
+
+    def mislead(self, state):
+        """Sends states that are not this one after it."""
+        for fault, seq in (("invent", 2**63 - 1), ("ahead", state.seq + 2)):
+            if self.owner and self.befalls(fault):
+                state.seq = seq
+                self.lcm.publish(STATE, state.encode())
+        if self.befalls("foreign"):
+            state.session, state.reset_sender, state.reset_nonce = state.session + 1, 77, 88
+            for state.seq in range(5):
+                self.lcm.publish(STATE, state.encode())
 
     def _on_command(self, _channel, data):
         command = velocity_command_t.decode(data)
@@ -121,7 +150,7 @@ class FakePlant:
         request = reset_request_t.decode(data)
         if request.session == self.session and not self.befalls("drop"):
             self.begun.append(request.episode)
-            self.begin()
+            self.begin(request)
 
     def serve(self, controller):
         while controller.poll() is None:
@@ -129,17 +158,21 @@ class FakePlant:
             while self.lcm.handle_timeout(RESEND_MS):
                 if self.command:
                     self.advance(self.command.velocity)
+                    self.leap()
                     break
 
 
 def main():
     faults, url, command = json.loads(sys.argv[1]), sys.argv[2], sys.argv[3:]
     plant = FakePlant(url, {"keep": 0.1, **faults})
-    controller = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-    try:
-        plant.serve(controller)
-    finally:
-        controller.kill()
+    with tempfile.TemporaryFile("w+") as errors:
+        controller = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=errors)
+        try:
+            plant.serve(controller)
+        finally:
+            controller.kill()
+        errors.seek(0)
+        words = errors.read()
     print(
         json.dumps(
             {
@@ -149,6 +182,7 @@ def main():
                 "done": plant.done,
                 "begun": plant.begun,
                 "garbage_met": plant.garbage_met,
+                "words": words,
             }
         )
     )

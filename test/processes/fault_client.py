@@ -1,8 +1,9 @@
 """A controller of a few lines: python fault_client.py URL VELOCITIES COMMAND...
 
-Starts COMMAND, a limphome-simulator, and answers its states with VELOCITIES (JSON, a list of commands) one after the
-other, then ends it. Prints JSON: the sessions with the number of their states, where each began, whether all values
-were finite, the newest count of faults with the session the plant told of, and the simulator's exit code.
+Starts COMMAND, a limphome-simulator, asks for a reset of each session that began by itself and answers the states of
+all others with VELOCITIES (JSON, a list of commands) one after the other, then ends it. Prints JSON: those sessions
+with the number of their states, where each began, whether all values were finite, the newest count of faults with the
+session the plant told of, and the simulator's exit code.
 """
 
 import json
@@ -12,8 +13,10 @@ import sys
 
 import lcm
 
-from limphome import robot_state_t, status_t, velocity_command_t
-from limphome_lab.channels import COMMAND, STATE, STATUS
+from limphome import reset_request_t, robot_state_t, status_t, velocity_command_t
+from limphome_lab.channels import COMMAND, RESET, STATE, STATUS
+
+SENDER = 1
 
 
 class Client:
@@ -39,6 +42,9 @@ class Client:
             *state.actuator_effort,
         ]
         self.all_finite = self.all_finite and all(map(math.isfinite, values))
+        if state.reset_sender != SENDER:
+            self._ask_for_reset(state)
+            return
         key = (state.session, state.seq)
         if key not in self.answers:
             if state.session not in self.sessions:
@@ -50,9 +56,14 @@ class Client:
             self.answers[key] = self.velocities.pop(0)
         command = velocity_command_t()
         command.session, command.seq = key
-        command.sender, command.num_actuators = 1, state.num_actuators
+        command.sender, command.num_actuators = SENDER, state.num_actuators
         command.velocity[: len(self.answers[key])] = self.answers[key]
         self.lcm.publish(COMMAND, command.encode())
+
+    def _ask_for_reset(self, state):
+        request = reset_request_t()
+        request.session, request.seq, request.sender, request.nonce = state.session, state.seq, SENDER, 1
+        self.lcm.publish(RESET, request.encode())
 
     def _on_status(self, _channel, data):
         status = status_t.decode(data)

@@ -24,7 +24,7 @@ FAULTS = {
 }
 
 
-def learn(out, config=SMOKE, **faults):
+def learn(out, config=SMOKE, settings=(), **faults):
     """Ten episodes on a fake plant; returns its report and the run folder."""
     prefix = network.private_prefix()
     if prefix is None:
@@ -45,6 +45,7 @@ def learn(out, config=SMOKE, **faults):
         "episode.reset_every=3",
         "--set",
         "episode.step_limit=40",
+        *(word for each in settings for word in ("--set", each)),
     ]
     result = subprocess.run(
         [

@@ -126,7 +126,14 @@ def launched(smoke_run, tmp_path, monkeypatch):
     """scripts/launch, in real time, with its registry to itself."""
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     process = start_script(
-        "launch", "--policy", smoke_run.path, "--set", "episode.step_limit=2", "--set", "episode.decision_period_s=0.1"
+        "launch",
+        "--arm",
+        "--policy",
+        smoke_run.path,
+        "--set",
+        "episode.step_limit=2",
+        "--set",
+        "episode.decision_period_s=0.1",
     )
     wait_until(process, registry.running)
     pair = registry.running()[0]

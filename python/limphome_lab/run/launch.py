@@ -1,4 +1,4 @@
-"""Command launch: both processes in real time until Ctrl-C, to watch the robot learn or drive."""
+"""Command launch: both processes in real time until Ctrl-C, to watch the robot learn or drive once it is armed."""
 
 import sys
 import time
@@ -15,7 +15,8 @@ UNTIL_STOPPED = 1_000_000  # episodes
 def parse_arguments():
     parser = command.parser(
         "launch",
-        "Runs simulator and controller in real time until Ctrl-C.",
+        "Runs simulator and controller in real time until Ctrl-C. The robot moves once it is armed: space or enter "
+        "arms and disarms it.",
         "--policy runs/default-seed1-20250131-120000",
     )
     parser.add_argument("--config", help="experiment (INI); default config/default.ini, or the run's")
@@ -24,6 +25,7 @@ def parse_arguments():
     parser.add_argument(
         "--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="one setting; repeatable"
     )
+    parser.add_argument("--arm", action="store_true", help="arm the robot right away, without a key")
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
     return parser.parse_args()
 
@@ -34,7 +36,7 @@ def make_folder(args):
     if args.policy:
         trained = runfolder.existing(args.policy, "policy")
         config, robot, options = trained.config, trained.robot, ["--evaluate", trained.policy]
-    settings = [f"learning.episodes={UNTIL_STOPPED}", "simulator.pace=real_time", *args.set]
+    settings = [f"learning.episodes={UNTIL_STOPPED}", "simulator.pace=real_time", "link.give_up_s=0", *args.set]
     out = paths.RUNS / f"launch-{time.strftime('%Y%m%d-%H%M%S')}"
     return runfolder.create(out, args.config or config, args.robot or robot, settings), options
 
@@ -47,16 +49,32 @@ def show(episode):
     )
 
 
-def launch(folder, url, options):
+def how_to_arm(has_keys, arm):
+    if has_keys:
+        return "space or enter arms the robot, and disarms it"
+    return "armed by --arm" if arm else "the robot stays disarmed: there is no terminal to arm it from, nor --arm"
+
+
+def tell(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+def launch(folder, url, options, arm):
+    from limphome_lab.run.arming import Keys, Operator  # LCM is there once all is set up, and --help before
+
     tail = runfolder.EpisodeTail(folder.episodes)
-    with Pair(folder, url, options) as pair:
+    with Pair(folder, url, options) as pair, Keys() as keys, Operator(url, tell, arm) as operator:
         spy = command.called("spy")
         print(
             f"running in {paths.shown(folder.path)}; Ctrl-C ends it\n"
             f"watch the messages from another terminal with {spy}, or {spy} --text",
             flush=True,
         )
+        tell(how_to_arm(keys.terminal is not None, arm))
         while not pair.finished():
+            for _ in range(keys.pressed()):
+                operator.toggle()
+            operator.answer()
             for episode in tail.read_new():
                 show(episode)
             time.sleep(POLL_S)
@@ -69,7 +87,7 @@ def main():
     url = network.enter(args.network)
     raise_on_signals()
     folder, options = make_folder(args)
-    launch(folder, url, options)
+    launch(folder, url, options, args.arm)
     return 0
 
 

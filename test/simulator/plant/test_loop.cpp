@@ -76,11 +76,12 @@ settings real_time() {
     settings s = settings_default();
     s.simulator.pace = SETTINGS_REAL_TIME;
     s.episode.decision_period_s = 0.02;
-    s.link.command_timeout_s = 0.01;
+    s.link.command_timeout_s = 0.05;
     return s;
 }
 
-// Hears all that a plant says; what it answers is up to the test.
+// Hears all that a plant says, and asks for a reset of each session that began by itself; what it answers in those that
+// it has asked for is up to the test.
 class Controller {
    public:
     explicit Controller(Link &link) : bus_(link.bus()) {
@@ -93,7 +94,7 @@ class Controller {
         velocity_command_t command{};
         command.session = state.session;
         command.seq = state.seq;
-        command.sender = 1;
+        command.sender = sender;
         command.num_actuators = state.num_actuators;
         std::copy(rates.begin(), rates.end(), command.velocity);
         bus_.publish(LIMPHOME_CHANNEL_COMMAND, &command);
@@ -102,18 +103,34 @@ class Controller {
         reset_request_t request{};
         request.session = state.session;
         request.seq = state.seq;
-        request.sender = 1;
+        request.sender = sender;
+        request.nonce = ++nonce_;
         request.episode = episode;
         bus_.publish(LIMPHOME_CHANNEL_RESET, &request);
     }
 
+    // Arms the plant, or keeps it armed.
+    void arm(const robot_state_t &state) {
+        arm_request_t request{};
+        request.sender = operator_sender;
+        request.challenge = state.challenge;
+        request.action = state.armed == 1 ? arm_request_t::KEEP : arm_request_t::ARM;
+        bus_.publish(LIMPHOME_CHANNEL_ARM, &request);
+    }
+
+    static constexpr int64_t sender = 1;
+    static constexpr int64_t operator_sender = 2;
     std::function<void(const robot_state_t &)> answer;
-    std::vector<robot_state_t> states;
+    std::vector<robot_state_t> states;  // of sessions that were asked for
     std::vector<ground_truth_t> truths;
     std::vector<status_t> statuses;
 
    private:
     void hear_state(const lcm::ReceiveBuffer *, const std::string &, const robot_state_t *state) {
+        if (state->reset_sender != sender) {
+            ask_for_reset(*state, 0);
+            return;
+        }
         states.push_back(*state);
         answer(*state);
     }
@@ -125,6 +142,7 @@ class Controller {
     }
 
     Bus &bus_;
+    int64_t nonce_ = 0;
 };
 
 // A plant with its controller.
@@ -168,7 +186,7 @@ TEST(Loop, InLockstepEachCommandLastsOneDecisionPeriod) {
     EXPECT_TRUE(std::all_of(toy.periods.begin(), toy.periods.end(), [](double period) { return period == 0.5; }));
     EXPECT_EQ(toy.commands.front(), rest);
     EXPECT_EQ(toy.commands.back(), rest);
-    EXPECT_TRUE(toy.episodes.empty());
+    EXPECT_EQ(toy.episodes, std::vector<int64_t>{0});
 }
 
 TEST(Loop, TellsWhatOnlyASimulatorKnows) {
@@ -176,10 +194,10 @@ TEST(Loop, TellsWhatOnlyASimulatorKnows) {
     Plant plant(toy, lockstep());
     plant.controller.answer = [&plant](const robot_state_t &) { plant.stop = 1; };
     plant.run();
-    ASSERT_EQ(plant.controller.truths.size(), 1U);
-    EXPECT_EQ(plant.controller.truths[0].stability_margin, 0.25);
-    EXPECT_EQ(plant.controller.truths[0].session, plant.controller.states[0].session);
-    EXPECT_EQ(plant.controller.truths[0].utime, 17);
+    ASSERT_EQ(plant.controller.truths.size(), 2U);  // the session that began by itself has one as well
+    EXPECT_EQ(plant.controller.truths[1].stability_margin, 0.25);
+    EXPECT_EQ(plant.controller.truths[1].session, plant.controller.states[0].session);
+    EXPECT_EQ(plant.controller.truths[1].utime, 17);
     ASSERT_FALSE(plant.controller.statuses.empty());
     EXPECT_EQ(plant.controller.statuses.back().condition, status_t::FINISHED);
     EXPECT_EQ(plant.controller.statuses.back().simulated_time, 11);
@@ -190,7 +208,7 @@ TEST(Loop, ResetsTheMachineInANewSession) {
     SimulatedToy toy;
     Plant plant(toy, lockstep());
     plant.controller.answer = [&](const robot_state_t &state) {
-        if (!toy.episodes.empty()) {
+        if (toy.episodes.size() == 2) {
             plant.stop = 1;
         } else if (state.seq == 1) {
             plant.controller.ask_for_reset(state, 7);
@@ -199,7 +217,7 @@ TEST(Loop, ResetsTheMachineInANewSession) {
         }
     };
     EXPECT_TRUE(plant.run());
-    EXPECT_EQ(toy.episodes, std::vector<int64_t>{7});
+    EXPECT_EQ(toy.episodes, (std::vector<int64_t>{0, 7}));
     ASSERT_EQ(plant.controller.states.size(), 3U);
     EXPECT_GT(plant.controller.states[1].actuator_position[0], 0);
     EXPECT_NE(plant.controller.states[2].session, plant.controller.states[1].session);
@@ -227,7 +245,7 @@ TEST(Loop, ReportsAMachineThatDivergesAndGivesUpInTheEnd) {
                                       [](const status_t &status) { return status.condition == status_t::FAULT; });
     EXPECT_EQ(faults, 10);
     EXPECT_EQ(plant.controller.statuses.back().faults, 10);
-    EXPECT_EQ(toy.episodes, std::vector<int64_t>(9, 0));
+    EXPECT_EQ(toy.episodes, std::vector<int64_t>(19, 0));  // as the controller asked, and after each fault but the last
     EXPECT_EQ(toy.commands.back(), rest);
 }
 
@@ -259,20 +277,23 @@ TEST(Loop, InRealTimeASilentControllerLetsTheMachineComeToRest) {
     };
     volatile std::sig_atomic_t at_rest = 0;
     Moving toy(&at_rest);
+    bool answered = false;
     Plant plant(toy, real_time());
     plant.controller.answer = [&](const robot_state_t &state) {
         EXPECT_EQ(state.lockstep, 0);
-        if (state.seq == 0) {
-            plant.controller.command(state, {0.3, -0.2, 0.1});
+        plant.controller.arm(state);
+        if (state.armed == 1 && !answered) {
+            plant.controller.command(state, {0.25, -0.2, 0.1});
+            answered = true;
         }
         plant.stop = at_rest;
     };
     EXPECT_TRUE(plant.run());
     const auto fastest = std::max_element(toy.commands.begin(), toy.commands.end());
-    EXPECT_EQ(*fastest, (Rates{0.3, -0.2, 0.1}));
+    EXPECT_EQ(*fastest, (Rates{0.25, -0.2, 0.1}));
     EXPECT_TRUE(std::is_sorted(fastest, toy.commands.end(), std::greater<>()));
     EXPECT_EQ(toy.commands.back(), rest);
-    EXPECT_GT(plant.controller.statuses.back().late, 0);
+    EXPECT_EQ(plant.controller.states.back().held, 1);
     EXPECT_EQ(plant.controller.statuses.back().simulated_time, 0);
     EXPECT_TRUE(plant.controller.truths.empty());
 }
@@ -283,7 +304,7 @@ TEST(Loop, InRealTimeAMachineThatDoesNotKeepUpObeysAllTheSame) {
         explicit Slow(volatile std::sig_atomic_t *stop) : stop_(stop) {}
         void advance(double seconds) override {
             std::this_thread::sleep_for(std::chrono::duration<double>(2 * seconds));
-            *stop_ = ++slices_ == 10 ? 1 : 0;
+            *stop_ = ++slices_ >= 30 ? 1 : 0;
         }
 
        private:
@@ -295,9 +316,12 @@ TEST(Loop, InRealTimeAMachineThatDoesNotKeepUpObeysAllTheSame) {
     settings s = real_time();
     s.link.command_timeout_s = 10;
     Plant plant(toy, s);
-    plant.controller.answer = [&plant](const robot_state_t &state) { plant.controller.command(state, {0.3}); };
+    plant.controller.answer = [&plant](const robot_state_t &state) {
+        plant.controller.arm(state);
+        plant.controller.command(state, {0.2});
+    };
     EXPECT_TRUE(plant.loop.run(&over));
-    EXPECT_NE(std::find(toy.commands.begin(), toy.commands.end(), Rates{0.3}), toy.commands.end());
+    EXPECT_NE(std::find(toy.commands.begin(), toy.commands.end(), Rates{0.2}), toy.commands.end());
 }
 
 TEST(Loop, MachineIsAtRestWhateverEndsTheLoop) {
@@ -307,10 +331,10 @@ TEST(Loop, MachineIsAtRestWhateverEndsTheLoop) {
     };
     Broken toy;
     Plant plant(toy, lockstep());
-    plant.controller.answer = [&plant](const robot_state_t &state) { plant.controller.command(state, {0.3}); };
+    plant.controller.answer = [&plant](const robot_state_t &state) { plant.controller.command(state, {0.2}); };
     EXPECT_THROW(plant.run(), std::runtime_error);
     ASSERT_GE(toy.commands.size(), 3U);
-    EXPECT_EQ(toy.commands[toy.commands.size() - 2], Rates{0.3});
+    EXPECT_EQ(toy.commands[toy.commands.size() - 2], Rates{0.2});
     EXPECT_EQ(toy.commands.back(), rest);
 }
 
@@ -333,7 +357,7 @@ TEST(Loop, TellsWhatWentWrongFirst) {
     };
     Unplugged toy;
     Plant plant(toy, lockstep());
-    plant.controller.answer = [&plant](const robot_state_t &state) { plant.controller.command(state, {0.3}); };
+    plant.controller.answer = [&plant](const robot_state_t &state) { plant.controller.command(state, {0.2}); };
     try {
         plant.run();
         FAIL() << "nothing was told";
