@@ -17,7 +17,7 @@ from limphome_lab.runfolder import RunFolder
 KILLS = int(os.environ.get("LIMPHOME_KILLS", "20"))
 # of a plant that has lost its controller, and the other way round; short, as each kill waits for it
 HASTE = ("--set", "link.sender_timeout_s=0.2")
-SHORT_EPISODES = ("--episodes", 200, "--set", "episode.step_limit=50", "--set", "episode.reset_every=5")
+SHORT_EPISODES = ("--episodes", 150, "--set", "episode.step_limit=40", "--set", "episode.reset_every=5")
 
 
 def program_of(folder, name):
