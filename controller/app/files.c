@@ -51,6 +51,10 @@ static bool sync_folder_of(const char *path) {
     return good;
 }
 
+bool files_put_in_place(const char *fresh, const char *path, char error[ERROR_LENGTH]) {
+    return (rename(fresh, path) == 0 && sync_folder_of(path)) || files_fail(error, path);
+}
+
 bool files_replace(const char *path, const void *data, size_t size, char error[ERROR_LENGTH]) {
     char fresh[FILES_PATH_LENGTH + 8];
     snprintf(fresh, sizeof fresh, "%s.new", path);
@@ -61,10 +65,9 @@ bool files_replace(const char *path, const void *data, size_t size, char error[E
     const bool written = fwrite(data, 1, size, file) == size || files_fail(error, path);
     const bool synced = written && files_sync(file, path, error);
     const bool closed = fclose(file) == 0 || files_fail(error, path);
-    if (synced && closed && rename(fresh, path) == 0 && sync_folder_of(path)) {
+    if (synced && closed && files_put_in_place(fresh, path, error)) {
         return true;
     }
-    files_fail(error, path); /* unless the reason stands there already */
     remove(fresh);
     return false;
 }

@@ -18,6 +18,9 @@ bool files_join(char path[FILES_PATH_LENGTH], const char *folder, const char *na
 /* The reason is what a call of the system has left in errno. Always false. */
 bool files_fail(char error[ERROR_LENGTH], const char *path);
 
+/* Gives the file `fresh`, which is on the disk, the name of the file `path`. */
+bool files_put_in_place(const char *fresh, const char *path, char error[ERROR_LENGTH]);
+
 /* Puts `size` bytes in the place of the file `path`: written beside it, brought to the disk, renamed. A reader or a
  * crash meets the old file or the new one. */
 bool files_replace(const char *path, const void *data, size_t size, char error[ERROR_LENGTH]);

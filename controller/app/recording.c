@@ -8,40 +8,10 @@
 #include "learned.h"
 #include "limphome_channels.h"
 #include "limphome_episode_t.h"
-
-/* An event as LCM writes it: sync word, number, time [us], length of channel and data, all big-endian; then those two.
- */
-enum { HEADER = 28, AT_CHANNEL_LENGTH = 20, AT_DATA_LENGTH = 24, CHANNEL_LENGTH = 64 };
-static const uint32_t sync_word = 0xEDA1DA01;
-
-typedef struct event {
-    char channel[CHANNEL_LENGTH];
-    int size;
-    unsigned char data[LEARNED_LARGEST];
-} event;
-
-static uint32_t read_word(const unsigned char *bytes) {
-    return (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 | bytes[3];
-}
-
-/* Reads the next event. False at the end of the file and where what follows is not a whole event. */
-static bool read_event(FILE *file, event *e) {
-    unsigned char header[HEADER];
-    if (fread(header, 1, HEADER, file) != HEADER || read_word(header) != sync_word) {
-        return false;
-    }
-    const uint32_t channel = read_word(header + AT_CHANNEL_LENGTH), size = read_word(header + AT_DATA_LENGTH);
-    if (channel >= CHANNEL_LENGTH || size > sizeof e->data || fread(e->channel, 1, channel, file) != channel ||
-        fread(e->data, 1, size, file) != size) {
-        return false;
-    }
-    e->channel[channel] = '\0';
-    e->size = (int)size;
-    return true;
-}
+#include "recording_event.h"
 
 /* The episode whose end, or what was learned up to it, the event tells of; -1 for another event. */
-static int32_t episode_told(const event *e) {
+static int32_t episode_told(const recording_event *e) {
     learned policy;
     limphome_episode_t episode;
     if (strcmp(e->channel, LIMPHOME_CHANNEL_EPISODE) == 0) {
@@ -54,16 +24,16 @@ static int32_t episode_told(const event *e) {
 }
 
 bool recording_find(const char *path, int32_t episodes, recording_place *end, char error[ERROR_LENGTH]) {
-    event e;
+    recording_event e;
     FILE *file = fopen(path, "rb");
     if (file == NULL) {
         return files_fail(error, path);
     }
     bool found = false;
     recording_place at = {0, 0};
-    while (read_event(file, &e)) {
-        at.bytes = (int64_t)ftello(file);
-        at.events++;
+    while (recording_event_read(file, &e)) {
+        at.bytes += e.bytes;
+        at.events = e.number + 1;
         if (episode_told(&e) == episodes) {
             *end = at;
             found = true;
@@ -95,7 +65,7 @@ void recording_add(recording *r, const char *channel, void *data, int size) {
     }
     struct timespec now;
     clock_gettime(CLOCK_REALTIME, &now);
-    char name[CHANNEL_LENGTH];
+    char name[RECORDING_CHANNEL_LENGTH];
     snprintf(name, sizeof name, "%s", channel);
     lcm_eventlog_event_t e = {
         .timestamp = (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000,
@@ -119,6 +89,20 @@ bool recording_cut(recording *r, recording_place end, char error[ERROR_LENGTH]) 
     }
     r->log->eventcount = end.events;
     return files_cut(r->log->f, r->path, end.bytes, error);
+}
+
+bool recording_replace(recording *r, const char *fresh, char error[ERROR_LENGTH]) {
+    const int64_t events = r->log->eventcount;
+    if (!files_put_in_place(fresh, r->path, error)) {
+        return false;
+    }
+    lcm_eventlog_destroy(r->log);
+    r->log = lcm_eventlog_create(r->path, "a");
+    if (r->log == NULL) {
+        return files_fail(error, r->path);
+    }
+    r->log->eventcount = events;
+    return fseeko(r->log->f, 0, SEEK_END) == 0 || files_fail(error, r->path);
 }
 
 bool recording_good(const recording *r, char error[ERROR_LENGTH]) {

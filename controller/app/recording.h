@@ -15,12 +15,13 @@ typedef struct recording {
     lcm_eventlog_t *log; /* NULL: nothing is recorded */
     char path[FILES_PATH_LENGTH];
     char error[ERROR_LENGTH]; /* why an event could not be written; "" while all were */
+    int64_t longest;          /* size above which it is thinned the next time (recording_thin.h) [bytes] */
 } recording;
 
 /* A place between two events. */
 typedef struct recording_place {
     int64_t bytes;  /* before it */
-    int64_t events; /* before it */
+    int64_t events; /* number of the next one */
 } recording_place;
 
 /* All that return bool do so with the reason in `error`. */
@@ -43,6 +44,9 @@ recording_place recording_end(const recording *r);
 
 /* Drops what lies behind `end`. */
 bool recording_cut(recording *r, recording_place end, char error[ERROR_LENGTH]);
+
+/* Goes on in the file `fresh`, which takes the place and the name of the present one and holds all or a part of it. */
+bool recording_replace(recording *r, const char *fresh, char error[ERROR_LENGTH]);
 
 /* False if an event could not be written so far. */
 bool recording_good(const recording *r, char error[ERROR_LENGTH]);

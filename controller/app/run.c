@@ -192,6 +192,7 @@ static void decide(run *r, const limphome_robot_state_t *state) {
         finish_episode(r, &observed->summary, state);
     }
     if (observed->reset && !last) {
+        run_folder_thin(&r->folder, r->settings.recording.limit_mb, r->error);
         rollback_keep(&r->kept, &r->controller, r->finished, &r->folder);
     }
 }

@@ -9,6 +9,7 @@
 
 #include "episode_table.h"
 #include "folder_lock.h"
+#include "recording_thin.h"
 
 enum { LARGEST_FILE = LEARNED_LARGEST };
 
@@ -163,6 +164,19 @@ static bool go_on_with_recording(run_folder *folder, recording_place end, char e
 bool run_folder_resume(run_folder *folder, const char *path, const run_folder_place *place, char error[ERROR_LENGTH]) {
     return enter(folder, path, error) && go_on_with_table(folder, place->table, error) &&
            go_on_with_recording(folder, place->recording, error);
+}
+
+bool run_folder_thin(run_folder *folder, int64_t limit_mb, char error[ERROR_LENGTH]) {
+    bool thinned;
+    if (!recording_thin(&folder->recording, limit_mb * 1000000, &thinned, error)) {
+        return false;
+    }
+    if (thinned && !folder->thinned) {
+        fprintf(stderr, "%s has grown to %" PRId64 " MB: of the middle of the run only the episodes' ends stay\n",
+                recording_name, limit_mb);
+    }
+    folder->thinned = folder->thinned || thinned;
+    return true;
 }
 
 run_folder_place run_folder_here(const run_folder *folder, int32_t episodes) {

@@ -19,6 +19,7 @@ typedef struct run_folder {
     int lock;                     /* that of folder_lock.h */
     FILE *episodes;               /* episodes.csv */
     recording recording;          /* messages.lcmlog */
+    bool thinned;                 /* it was told that the recording was thinned */
 } run_folder;
 
 /* A moment in a run: what the table and the recording held then. */
@@ -42,6 +43,10 @@ bool run_folder_find(const char *path, int64_t settings_hash, run_folder_place *
 
 /* Goes on with an existing folder from a place that was found in it. */
 bool run_folder_resume(run_folder *folder, const char *path, const run_folder_place *place, char error[ERROR_LENGTH]);
+
+/* Thins the recording where it has become longer than `limit_mb` [MB], and says so on stderr the first time. Places
+ * taken before are not good any more. */
+bool run_folder_thin(run_folder *folder, int64_t limit_mb, char error[ERROR_LENGTH]);
 
 /* What table and recording hold now, after `episodes` finished ones. */
 run_folder_place run_folder_here(const run_folder *folder, int32_t episodes);

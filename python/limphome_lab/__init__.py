@@ -6,7 +6,7 @@ room but those named here (test/lab/test_rooms.py):
     show     a run, while it goes on or afterwards      -
     run      trains, evaluates, launches                show
     study    many runs side by side                     show, run
-    measure  simulator, speed, the tests themselves     -
+    measure  simulator, speed, the tests themselves     run
 
 The top uses no room. `limphome`, the package of message types, is made by lcm-gen and lies beside this one.
 """

@@ -72,7 +72,7 @@ def last_session(path):
         elif channel == EPISODE:
             episode = episode_t.decode(data)
             episodes.setdefault(episode.session, []).append(episode)
-            states = {episode.session: states[episode.session]}  # the sessions before are not wanted any more
+            states = {episode.session: states.get(episode.session, {})}  # the sessions before are not wanted any more
     last = list(episodes)[-1]
     return episodes[last], [state for _, state in sorted(states[last].items())]
 

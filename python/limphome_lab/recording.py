@@ -28,7 +28,18 @@ def read_log(path, begin=0):
         if file.seek(0, 2) == 0:
             return
         with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
-            yield from _events(path, content, _first_event(content, begin) if begin > 0 else 0)
+            at = _first_event(content, begin) if begin > 0 else 0
+            for _, channel, data in _events(path, content, at):
+                yield channel, data
+
+
+def is_thinned(path):
+    """Whether the controller has dropped events of the middle (recording.limit_mb): their numbers are missing."""
+    with open(path, "rb") as file:
+        if file.seek(0, 2) == 0:
+            return False
+        with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
+            return any(number != count for count, (number, _, _) in enumerate(_events(path, content, 0)))
 
 
 def _events(path, content, at):
@@ -36,20 +47,20 @@ def _events(path, content, at):
         event = _event(content, at)
         if event is None:
             raise TornRecording(path, at)
-        channel, data, at = event
-        yield channel, data
+        *found, at = event
+        yield found
 
 
 def _event(content, at):
-    """(channel, data, where the next begins), or None where there is no whole event."""
+    """(number, channel, data, where the next begins), or None where there is no whole event."""
     if at + HEADER.size > len(content):
         return None
-    sync, _, _, channel_length, data_length = HEADER.unpack_from(content, at)
+    sync, number, _, channel_length, data_length = HEADER.unpack_from(content, at)
     middle = at + HEADER.size + channel_length
     end = middle + data_length
     if sync != SYNC or channel_length > LONGEST_CHANNEL or end > len(content):
         return None
-    return content[at + HEADER.size : middle].decode("ascii", "replace"), content[middle:end], end
+    return number, content[at + HEADER.size : middle].decode("ascii", "replace"), content[middle:end], end
 
 
 def _first_event(content, begin):
@@ -57,7 +68,7 @@ def _first_event(content, begin):
     at = content.find(SYNC.to_bytes(4), begin)
     while at >= 0:
         event = _event(content, at)
-        if event and (event[2] == len(content) or _event(content, event[2])):
+        if event and (event[3] == len(content) or _event(content, event[3])):
             return at
         at = content.find(SYNC.to_bytes(4), at + 1)
     return len(content)

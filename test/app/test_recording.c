@@ -9,9 +9,11 @@
 #include "limphome_channels.h"
 #include "limphome_episode_t.h"
 #include "recording.h"
+#include "recording_event.h"
+#include "recording_thin.h"
 #include "suite.h"
 
-enum { EPISODES = 3 };
+enum { EPISODES = 3, EVENTS = 2 * EPISODES };
 
 static char folder[64];
 static char path[96];
@@ -114,7 +116,7 @@ START_TEST(going_on_leaves_no_trace_of_the_tear) {
     add_episode(&r, 3);
     ck_assert(recording_close(&r, error));
     ck_assert_int_eq(file_size(), ends[EPISODES]);
-    ck_assert_int_eq(count_events(), 2 * EPISODES);
+    ck_assert_int_eq(count_events(), EVENTS);
 }
 END_TEST
 
@@ -131,6 +133,42 @@ START_TEST(a_running_one_is_cut_back) {
     ck_assert(recording_close(&r, error));
     ck_assert_int_eq(file_size(), (int64_t)2 * place.bytes);
     ck_assert_int_eq(count_events(), 4);
+}
+END_TEST
+
+/* Many episodes; each is 7 bytes of a state and its end. */
+START_TEST(a_long_one_is_thinned) {
+    enum { LIMIT = 20000, MANY = 1000 };
+    recording r;
+    bool thinned;
+    int times = 0;
+    ck_assert(recording_create(&r, path, error));
+    for (int32_t i = 1; i <= MANY; i++) {
+        add_episode(&r, i);
+        const int64_t before = recording_end(&r).bytes;
+        ck_assert_msg(recording_thin(&r, LIMIT, &thinned, error), "%s", error);
+        ck_assert_int_eq(recording_end(&r).events, (int64_t)2 * i);
+        ck_assert(thinned == (recording_end(&r).bytes < before));
+        times += thinned;
+    }
+    ck_assert_int_gt(times, 2);
+    ck_assert(recording_close(&r, error));
+    recording_place end;
+    for (int32_t i = 1; i <= MANY; i += 37) { /* all can be gone on from */
+        ck_assert(recording_find(path, i, &end, error));
+        ck_assert_int_eq(end.events, (int64_t)2 * i);
+    }
+    int states[3] = {0};
+    FILE *file = fopen(path, "rb");
+    for (recording_event e; recording_event_read(file, &e);) {
+        if (strcmp(e.channel, LIMPHOME_CHANNEL_STATE) == 0) {
+            states[e.number < 10 ? 0 : e.number < 2 * MANY - 10 ? 1 : 2]++;
+        }
+    }
+    fclose(file);
+    ck_assert_int_eq(states[0], 5); /* the first ten events and the last ten are all there */
+    ck_assert_int_eq(states[2], 5);
+    ck_assert_int_lt(states[1], MANY / 2);
 }
 END_TEST
 
@@ -162,6 +200,7 @@ int main(void) {
     tcase_add_test(cases, an_event_that_is_damaged_ends_it);
     tcase_add_test(cases, going_on_leaves_no_trace_of_the_tear);
     tcase_add_test(cases, a_running_one_is_cut_back);
+    tcase_add_test(cases, a_long_one_is_thinned);
     tcase_add_test(cases, a_full_disk_is_told);
     tcase_add_test(cases, nothing_is_recorded_without_a_file);
     return run_suite("recording", cases);

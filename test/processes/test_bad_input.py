@@ -174,3 +174,82 @@ def test_what_cannot_be_printed_is_told(program, option):
 def test_no_folder_is_made_where_the_bus_cannot_be_joined(tmp_path):
     command = [paths.program("controller"), "--config", SMOKE, "--out", tmp_path / "run", "--lcm-url", "nowhere://"]
     assert_refused(subprocess.run(command, capture_output=True, text=True), tmp_path / "run", ["cannot join the bus"])
+
+
+# (name, bytes of the INI file, words of the refusal, or None where it is read and seed is 7, episodes 3)
+UNUSUAL_FILES = [
+    ("carriage returns alone", b"[learning]\rseed = 7\repisodes = 3\r", None),
+    ("Windows", b"\xef\xbb\xbf[learning]\r\nseed = 7\r\nepisodes = 3\r\n", None),
+    ("indented keys", b"[learning]\n\tseed = 7\n\tepisodes = 3\n", None),
+    ("an indented key set twice", b"[learning]\n  seed = 7\n  seed = 8\n", ["bad.ini:3", "already set at line 2"]),
+    ("section and key on a line", b"[learning] seed = 7\n", ["bad.ini:1", "[section] must stand on a line of its own"]),
+    ("UTF-16", "[learning]\nseed = 7\n".encode("utf-16"), ["bad.ini:1", "not a text file in ASCII or UTF-8"]),
+    ("no end of line", b"[learning]\nseed = 7\nepisodes = 3", None),
+]
+
+
+@pytest.mark.parametrize(
+    "content, words",
+    [
+        pytest.param(
+            *case[1:],
+            id=case[0],
+            marks=pytest.mark.fault(
+                "a configuration written in another way",
+                injected="by an editor's settings",
+                expected="read, or refused with the right line",
+            ),
+        )
+        for case in UNUSUAL_FILES
+    ],
+)
+def test_unusual_configuration(tmp_path, content, words, observe):
+    file = tmp_path / "bad.ini"
+    file.write_bytes(content)
+    command = [paths.program("controller"), "--config", file, "--print-settings"]
+    result = subprocess.run(command, capture_output=True, text=True, timeout=30)
+    if words:
+        assert result.returncode == 2 and all(word in result.stderr for word in words), result.stderr
+        observe(result.stderr.strip().replace(f"{tmp_path}/", ""))
+    else:
+        assert "\nseed = 7\nepisodes = 3\n" in result.stdout
+        observe("read: seed 7, 3 episodes")
+
+
+def robot_with(change):
+    """Text of the robot file with something bad."""
+    good = (ROOT / "config" / "crawler.urdf").read_text()
+    assert change[0] in good
+    return good.replace(*change)
+
+
+BAD_RUNS = [
+    ("negative mass", ('mass value="498"', 'mass value="-498"'), [], "bad.urdf"),
+    ("unknown joint", ('<crawler joint="left_crawler"', '<crawler joint="no_such_joint"'), [], "bad.urdf"),
+    ("a robot without that joint", ("", ""), ["failure.actuator=joint_5"], "[failure] actuator = joint_5"),
+]
+
+
+@pytest.mark.parametrize(
+    "change, assignments, word",
+    [
+        pytest.param(
+            *case[1:],
+            id=case[0],
+            marks=pytest.mark.fault(
+                "robot and settings that do not go together",
+                injected="train with a bad robot file, or a failure of a joint that it has not",
+                expected="refused, exit code 2, and no folder is left behind",
+            ),
+        )
+        for case in BAD_RUNS
+    ],
+)
+def test_no_folder_is_left_behind(tmp_path, change, assignments, word, observe):
+    (tmp_path / "bad.urdf").write_text(robot_with(change))
+    out = tmp_path / "run"
+    sets = [each for assignment in assignments for each in ("--set", assignment)]
+    arguments = ["--config", SMOKE, "--robot", tmp_path / "bad.urdf", "--out", out, *sets]
+    result = run_script("train", *arguments, check=False)
+    assert_refused(result, out, [word])
+    observe(result.stderr.strip().replace(f"{tmp_path}/", ""))

@@ -1,6 +1,7 @@
 """Files that were damaged, torn or altered, and folders where another works: told, stepped over or refused, never
 silently used."""
 
+import json
 import os
 import shutil
 import signal
@@ -223,3 +224,23 @@ def test_killed_run_is_gone_on_with(smoke_run, tmp_path, observe):
     run_script("train", "--resume", folder.path, "--quiet", "--no-figures")
     expect_whole(folder, smoke_run)
     observe("same table and policy, each episode recorded once")
+
+
+@pytest.mark.fault(
+    "a run that would fill the disk",
+    injected="[recording] limit_mb = 1, and ten times as many decisions",
+    expected="the recording stays below the limit; figures, diagnosis and the manifest know of it; the run is the same",
+)
+def test_recording_is_bounded(smoke_run, tmp_path, observe):
+    folder = RunFolder(tmp_path / "run")
+    run_script("train", "--config", SMOKE, "--out", folder.path, "--quiet", "--set", "recording.limit_mb=1")
+    expect_whole(folder, smoke_run)
+    before, after = smoke_run.messages.stat().st_size, folder.messages.stat().st_size
+    assert before > 4_000_000 and after < 2_000_000
+    assert json.loads(folder.manifest.read_text())["recording"] == {"bytes": after, "thinned": True}
+    assert json.loads(smoke_run.manifest.read_text())["recording"] == {"bytes": before, "thinned": False}
+    assert (folder.path / "controller.log").read_text().count("messages.lcmlog has grown to 1 MB") == 1
+    assert (folder.figures / "fig9_motion.png").exists()
+    run_script("train", "--resume", folder.path, "--quiet", "--no-figures")
+    expect_whole(folder, smoke_run)
+    observe(f"{after / 1e6:.1f} MB instead of {before / 1e6:.1f} MB")

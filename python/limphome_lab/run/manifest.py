@@ -12,6 +12,7 @@ import subprocess
 import sys
 import time
 from collections import Counter
+from contextlib import suppress
 from pathlib import Path
 
 from limphome_lab import files, paths
@@ -39,25 +40,33 @@ class Part:
         }
         if restarts:
             part["restarts"] = list(restarts)
-        statuses, torn_at = last_statuses(self.folder.messages, self._began)
-        if torn_at is not None:
-            part["recording_torn_at"] = torn_at
+        statuses = last_statuses(self.folder.messages, self._began)
         return part | measures(*statuses) if len(statuses) == 2 else part
 
 
 def last_statuses(recording, since):
-    """The last status_t of plant and controller in a recording, where they have told one `since` [s, monotonic]; and
-    the byte at which it is torn, None if it is not."""
+    """The last status_t of plant and controller in a recording, where they have told one `since` [s, monotonic]."""
     from limphome_lab.messages import STATUS, recorded, status_t  # lcm is there once all is set up, and --help before
     from limphome_lab.recording import TornRecording
 
-    last, torn_at = {}, None
+    last = {}
+    with suppress(TornRecording, FileNotFoundError):  # what is before the tear is sound; recording_as_it_is tells of it
+        for _, status in recorded(recording, STATUS):
+            if status.utime >= since * 1e6:
+                last[status.process] = status
+    return [last[process] for process in (status_t.PLANT, status_t.CONTROLLER) if process in last]
+
+
+def recording_as_it_is(recording):
+    """Its size; the byte at which it was torn, if it was; whether its middle was thinned."""
+    from limphome_lab.recording import TornRecording, is_thinned
+
+    if not recording.exists():
+        return None
     try:
-        if recording.exists():
-            last = {status.process: status for _, status in recorded(recording, STATUS) if status.utime >= since * 1e6}
+        return {"bytes": recording.stat().st_size, "thinned": is_thinned(recording)}
     except TornRecording as torn:
-        torn_at = torn.offset
-    return [last[process] for process in (status_t.PLANT, status_t.CONTROLLER) if process in last], torn_at
+        return {"bytes": recording.stat().st_size, "torn_at": torn.offset}
 
 
 def measures(plant, controller):
@@ -154,7 +163,7 @@ def write_manifest(folder, part):
         "result": part["result"],
         "episodes": len(episodes),
         "outcomes": dict(Counter(episode.outcome for episode in episodes)),
-        "recording_bytes": folder.messages.stat().st_size if folder.messages.exists() else 0,
+        "recording": recording_as_it_is(folder.messages),
         "restarts": sum(len(each.get("restarts", ())) for each in parts),
         "wall_time_s": round(sum(each["wall_time_s"] for each in parts), 3),
         **totals(parts),

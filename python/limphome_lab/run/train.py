@@ -5,7 +5,7 @@ from pathlib import Path
 
 from limphome_lab import command, files, network, paths, runfolder
 from limphome_lab.ending import Ending, told, with_exit_code
-from limphome_lab.run.manifest import Part, begin_manifest, read_manifest, write_manifest
+from limphome_lab.run.manifest import Part, begin_manifest, read_manifest, recording_as_it_is, write_manifest
 from limphome_lab.run.pair import Pair, SupervisedPair
 from limphome_lab.run.processes import Interrupted, raise_on_signals
 from limphome_lab.show import diagnose
@@ -122,9 +122,10 @@ def main():
 def tell_end(args, folder, part):
     """Manifest and figures, also of a run that did not get to its end."""
     write_manifest(folder, part)
-    size = folder.messages.stat().st_size if folder.messages.exists() else 0
-    if size >= LARGE_RECORDING:
-        print(f"{paths.shown(folder.messages)} has {size / 1e6:.0f} MB", file=sys.stderr)
+    recording = recording_as_it_is(folder.messages) or {"bytes": 0}
+    if recording["bytes"] >= LARGE_RECORDING:
+        thinned = "; its middle was thinned (recording.limit_mb)" if recording.get("thinned") else ""
+        print(f"{paths.shown(folder.messages)} has {recording['bytes'] / 1e6:.0f} MB{thinned}", file=sys.stderr)
     if args.figures:
         try:
             draw(folder)
