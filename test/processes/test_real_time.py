@@ -8,7 +8,7 @@ import pytest
 from bus import REAL_TIME, Bus, FakeRobot, controller, inside, simulator
 
 from limphome import reset_request_t, status_t, velocity_command_t
-from limphome_lab.channels import COMMAND, DECISION, RESET
+from limphome_lab.channels import COMMAND, DECISION, RESET, STATE
 from limphome_lab.messages import recorded
 from limphome_lab.runfolder import RunFolder
 
@@ -69,7 +69,7 @@ def fake_real_time(folder, delay_s, seconds=4):
         begin = time.monotonic()
         while time.monotonic() < begin + seconds:
             late = delay_s if robot.owner and robot.seq >= 10 else 0.0
-            bus.say("LIMPHOME_STATE", robot.state(sent=round((time.monotonic() - late) * 1e6)))
+            bus.say(STATE, robot.state(sent=round((time.monotonic() - late) * 1e6)))
             answered.setdefault(robot.seq, 0)
             bus.listen(0.1)
             for channel, data in bus.heard:

@@ -8,7 +8,7 @@ from bus import REAL_TIME, Bus, FakeRobot, controller, inside, simulator
 from test_lockstep import clean, learn  # noqa: F401
 
 from limphome import reset_request_t, status_t, velocity_command_t
-from limphome_lab.channels import COMMAND, RESET, STATE
+from limphome_lab.channels import COMMAND, RESET, STATE, STATUS
 from limphome_lab.runfolder import RunFolder
 
 GAVE_UP = 3
@@ -197,7 +197,7 @@ def wrong_fault(folder):
         for _ in range(5):
             status = status_t()
             status.process, status.condition, status.session = status_t.PLANT, status_t.FAULT, bus.state.session
-            bus.lcm.publish("LIMPHOME_STATUS", status.encode())
+            bus.lcm.publish(STATUS, status.encode())
             robot = FakeRobot()
             bus.say(STATE, robot.state(seq=3))
             bus.listen(0.1)
