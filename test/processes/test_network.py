@@ -64,7 +64,7 @@ def test_command_that_is_told_makes_the_host_network_good(tmp_path):
     expected="a run with --network host hears itself over the loopback",
 )
 def test_host_network_beside_another_interface(tmp_path, observe):
-    other = "ip link add va type veth peer name vb && ip link set vb up && ip addr add 10.9.0.1/24 dev va && ip link set va up"
+    other = "ip link add va type veth peer name vb && ip addr add 10.9.0.1/24 dev va && ip link set va up"
     if subprocess.run([*NO_NETWORK, "sh", "-c", other], capture_output=True).returncode != 0:
         pytest.skip("no virtual interfaces here")
     inside = [*NO_NETWORK, "sh", "-c", f'{other} && {network.LOOPBACK_UP} && exec "$@"', "sh"]
