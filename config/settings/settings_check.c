@@ -35,6 +35,8 @@ static const struct relation {
 } relations[] = {
     {KEY_rbf_initial_width, KEY_rbf_width_floor, is_at_least, "must be at least"},
     {KEY_rbf_initial_weight, KEY_rbf_weight_limit, is_within, "must be in magnitude at most"},
+    {KEY_safety_crawler_speed, KEY_action_crawler_speed, is_at_least, "must be at least"},
+    {KEY_safety_joint_speed, KEY_action_joint_speed, is_at_least, "must be at least"},
     {KEY_episode_decision_period_s, KEY_simulator_time_step_s, is_whole_multiple, "must be a whole number of"},
     {KEY_sensors_attitude_delay_s, KEY_simulator_time_step_s, is_whole_multiple, "must be a whole number of"},
     {KEY_sensors_position_delay_s, KEY_simulator_time_step_s, is_whole_multiple, "must be a whole number of"},

@@ -53,7 +53,7 @@ static bool read_inputs(run *r, const command_line *line, run_folder_place *plac
 }
 
 bool run_check(run *r, const command_line *line) {
-    run_folder_place place;
+    run_folder_place place = {0};
     const bool good = read_inputs(r, line, &place);
     if (good && line->resume) {
         printf("goes on after episode %" PRId32 "\n", place.episodes);

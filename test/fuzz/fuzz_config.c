@@ -24,6 +24,7 @@ static void make_bools(lh_config *config) {
     make_bool(&config->task.reward.heading_error);
     make_bool(&config->learner.q_learning.network.exact_gradient);
     make_bool(&config->learner.planner.mechanics);
+    make_bool(&config->monitor.active);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {

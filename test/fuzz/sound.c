@@ -67,9 +67,33 @@ static void expect_sound_choice(const lh_controller *controller, const lh_decisi
     FUZZ_EXPECT(choice->probability > 0.0f && choice->probability <= 1.0f);
     FUZZ_EXPECT(choice->temperature == lh_learner_temperature(&controller->learner, decision->observed.episode));
     FUZZ_EXPECT(decision->observed.num_inputs == controller->task.controlled.count + 2);
-    for (int32_t k = 0; k < controller->task.robot.num_actuators; k++) {
-        FUZZ_EXPECT(lh_within(decision->velocity[k], -2.0f, 2.0f));
+}
+
+/* Each level that is executed is the one chosen, or still; only with a reason, which the mask tells of. */
+static void expect_sound_intervention(const lh_controller *controller, const lh_decision *decision) {
+    const lh_task *task = &controller->task;
+    const lh_intervention *made = &decision->intervention;
+    int8_t chosen[LH_MAX_ACTUATORS];
+    int8_t executed[LH_MAX_ACTUATORS];
+    float velocity[LH_MAX_ACTUATORS] = {0.0f};
+    uint32_t stilled = 0;
+    lh_action_levels(decision->choice.action, task->controlled.count, chosen);
+    lh_action_levels(made->action, task->controlled.count, executed);
+    for (int32_t k = 0; k < task->controlled.count; k++) {
+        FUZZ_EXPECT(executed[k] == chosen[k] || executed[k] == LH_STILL);
+        stilled |= executed[k] != chosen[k] ? (uint32_t)1 << task->controlled.index[k] : 0;
     }
+    FUZZ_EXPECT(made->stilled == stilled && (made->hazards != 0 || made->action == decision->choice.action));
+    lh_task_velocities(task, made->action, velocity);
+    FUZZ_EXPECT(memcmp(decision->velocity, velocity, sizeof velocity) == 0);
+}
+
+static void expect_held(const lh_controller *controller, const lh_decision *decision, lh_hazard hazard) {
+    static const float still[LH_MAX_ACTUATORS];
+    FUZZ_EXPECT(memcmp(decision->velocity, still, sizeof still) == 0);
+    FUZZ_EXPECT(decision->intervention.hazards == (uint32_t)hazard && decision->intervention.stilled != 0);
+    FUZZ_EXPECT(!decision->choice.learned && !decision->observed.reset && !decision->observed.stepped);
+    FUZZ_EXPECT(controller->task.gap);
 }
 
 static void expect_sound(const lh_controller *controller, const lh_decision *decision) {
@@ -86,6 +110,7 @@ static void expect_sound(const lh_controller *controller, const lh_decision *dec
     }
     if (!decision->observed.reset) {
         expect_sound_choice(controller, decision);
+        expect_sound_intervention(controller, decision);
     }
     expect_sound_learner(&controller->learner, decision->observed.episode);
 }
@@ -94,13 +119,39 @@ void fuzz_step(lh_controller *controller, const lh_state *state) {
     static lh_controller before; /* large for a stack */
     lh_decision decision;
     memset(&decision, 0xa5, sizeof decision);
-    lh_decision untouched = decision;
     memcpy(&before, controller, sizeof before);
-    if (lh_controller_step(controller, state, &decision) == LH_OK) {
-        expect_sound(controller, &decision);
+    const bool valid = lh_controller_step(controller, state, &decision) == LH_OK;
+    const bool held = !valid || (decision.intervention.hazards & LH_HAZARD_JUMP) != 0;
+    if (held) {
+        expect_held(controller, &decision, valid ? LH_HAZARD_JUMP : LH_HAZARD_INVALID);
+        FUZZ_EXPECT(memcmp(&controller->learner, &before.learner, sizeof before.learner) == 0);
     } else {
-        FUZZ_EXPECT(memcmp(controller, &before, sizeof before) == 0);
-        FUZZ_EXPECT(memcmp(&decision, &untouched, sizeof decision) == 0);
+        expect_sound(controller, &decision);
+    }
+}
+
+/* What may come between two states. */
+static void fuzz_between(lh_controller *controller, uint8_t what) {
+    lh_decision decision;
+    switch (what) {
+        case 1:
+            lh_controller_begin(controller);
+            break;
+        case 2:
+            lh_controller_gap(controller);
+            break;
+        case 3:
+            lh_controller_resume(controller, controller->task.episode.number);
+            break;
+        case 4:
+            lh_controller_hold(controller, &decision);
+            expect_held(controller, &decision, LH_HAZARD_STALE);
+            break;
+        case 5:
+            lh_controller_guard(controller);
+            break;
+        default:
+            break;
     }
 }
 
@@ -111,9 +162,7 @@ void fuzz_steps(fuzz_input *in, lh_controller *controller, const lh_state *good)
         if (what & 1) {
             state = *good; /* else the words overwritten before stay */
         }
-        if ((what & 14) == 2) {
-            lh_controller_begin(controller);
-        }
+        fuzz_between(controller, what >> 1 & 7);
         fuzz_patch(in, &state, sizeof state, sizeof(float));
         fuzz_step(controller, &state);
     }

@@ -502,6 +502,36 @@ START_TEST(what_is_executed_is_learned) {
 }
 END_TEST
 
+/* A decision moves a joint by 0.15 rad; with 0.02 rad to spare a planner plans to keep 0.17 rad from its stops, and so
+ * proposes nothing that is stilled for them. Guarded from the beginning or later on. */
+START_TEST(a_planner_keeps_clear_of_stops) {
+    lh_config config = lh_config_default();
+    config.learner.kind = LH_PLANNER;
+    config.learner.planner.sweeps = 0;
+    config.learner.planner.random_share = 1.0f;
+    config.monitor.stop_clearance = 0.02f;
+    for (int32_t active = 0; active < 2; active++) {
+        config.monitor.active = active;
+        init(&controller, &config);
+        lh_controller_guard(&controller);
+        expect_near(controller.learner.as.planner.planned.clearance, 0.17, 1e-6);
+        lh_state state = crawler_state(0.0f, 0.0f, facing_y);
+        for (int32_t i = 0; i < 30; i++) {
+            const lh_decision d = step(&controller, &state);
+            ck_assert_uint_eq(d.intervention.hazards & LH_HAZARD_STOP, 0);
+            for (int32_t k = 2; k < 5; k++) {
+                state.actuator_position[k] += 0.5f * d.velocity[k];
+            }
+        }
+    }
+    config.monitor.stop_clearance = 0.0f;
+    config.monitor.period = 0.01f;
+    init(&controller, &config);
+    expect_near(controller.learner.as.planner.planned.clearance, 0.03, 1e-6); /* its own */
+    init_guarded(LH_Q_LEARNING);                                              /* plans nothing */
+}
+END_TEST
+
 /* Not a bit differs where there is nothing to intervene in. */
 START_TEST(the_monitor_changes_nothing_else) {
     init_guarded(LH_Q_LEARNING);
@@ -584,6 +614,7 @@ Suite *suite(void) {
     tcase_add_test(t, a_place_that_holds_is_believed);
     tcase_add_test(t, put_back_is_no_jump);
     tcase_add_test(t, what_is_executed_is_learned);
+    tcase_add_test(t, a_planner_keeps_clear_of_stops);
     tcase_add_test(t, the_monitor_changes_nothing_else);
     suite_add_tcase(s, t);
     t = tcase_create("episodes");

@@ -17,7 +17,8 @@ from limphome_lab.runfolder import RunFolder
 KILLS = int(os.environ.get("LIMPHOME_KILLS", "20"))
 # of a plant that has lost its controller, and the other way round; short, as each kill waits for it
 HASTE = ("--set", "link.sender_timeout_s=0.2")
-SHORT_EPISODES = ("--episodes", 150, "--set", "episode.step_limit=40", "--set", "episode.reset_every=5")
+SHORT = ("--episodes", 100, "--set", "episode.step_limit=40", "--no-figures", "--quiet")
+OFTEN = ("--set", "episode.reset_every=5")
 
 
 def program_of(folder, name):
@@ -40,11 +41,18 @@ def kill(folder, name):
     return pid is not None
 
 
+@pytest.fixture(scope="module")
+def unbroken(tmp_path_factory):
+    folder = RunFolder(tmp_path_factory.mktemp("unbroken") / "run")
+    train(folder.path, *SHORT)
+    return folder
+
+
 @pytest.fixture
 def supervised(tmp_path):
     """(process, run folder) of a run that is supervised."""
     folder = RunFolder(tmp_path / "run")
-    process = start_script("train", "--config", SMOKE, "--out", folder.path, "--quiet", "--supervise", *HASTE)
+    process = start_script("train", "--config", SMOKE, "--out", folder.path, "--supervise", *SHORT, *HASTE)
     yield process, folder
     if process.poll() is None:
         process.kill()
@@ -68,12 +76,12 @@ def expect_unbroken(process, folder, unbroken):
     expected="it is started again, and the run ends byte for byte as an unbroken one",
 )
 @pytest.mark.parametrize("names", [["simulator"], ["controller"], ["simulator", "controller"]], ids="+".join)
-def test_program_that_dies_is_started_again(smoke_run, supervised, observe, names):
+def test_program_that_dies_is_started_again(unbroken, supervised, observe, names):
     process, folder = supervised
     wait_until(process, lambda: len(folder.read_episodes()) >= 13)
     killed = [kill(folder, name) for name in names]
     assert all(killed)
-    restarts = expect_unbroken(process, folder, smoke_run)
+    restarts = expect_unbroken(process, folder, unbroken)
     assert sorted(restart["process"] for restart in restarts) == sorted(names)
     observe(f"{len(restarts)} restarts, same table and policy")
 
@@ -83,11 +91,11 @@ def test_program_that_dies_is_started_again(smoke_run, supervised, observe, name
     injected="SIGKILL; train --supervise",
     expected="it begins anew, and the run ends byte for byte as an unbroken one",
 )
-def test_controller_that_dies_before_the_first_checkpoint(smoke_run, supervised, observe):
+def test_controller_that_dies_before_the_first_checkpoint(unbroken, supervised, observe):
     process, folder = supervised
     wait_until(process, lambda: len(folder.read_episodes()) >= 2)
     assert kill(folder, "controller")
-    assert len(expect_unbroken(process, folder, smoke_run)) == 1
+    assert len(expect_unbroken(process, folder, unbroken)) == 1
     observe("same table and policy")
 
 
@@ -98,13 +106,13 @@ def test_controller_that_dies_before_the_first_checkpoint(smoke_run, supervised,
 )
 def test_many_kills(tmp_path, observe):
     unbroken = RunFolder(tmp_path / "unbroken")
-    train(unbroken.path, "--no-figures", *SHORT_EPISODES)
+    train(unbroken.path, *SHORT, *OFTEN)
     draw = random.Random(1)
     kills, runs = 0, 0
     while kills < KILLS:
         folder = RunFolder(tmp_path / f"run{runs}")
-        options = ("--quiet", "--no-figures", "--supervise", *HASTE, *SHORT_EPISODES)
-        process = start_script("train", "--config", SMOKE, "--out", folder.path, *options)
+        options = ("--config", SMOKE, "--out", folder.path, "--supervise", *SHORT, *OFTEN, *HASTE)
+        process = start_script("train", *options)
         kills_here = kill_at_random(process, folder, draw, KILLS - kills)
         restarts = expect_unbroken(process, folder, unbroken)
         assert kills_here - 1 <= len(restarts) <= kills_here  # the last may come after the end
@@ -151,9 +159,9 @@ def test_supervision_gives_up(supervised, observe):
     injected="SIGTSTP, then SIGCONT, to the script",
     expected="both programs stop and go on with it; the run ends as an unbroken one",
 )
-def test_ctrl_z_stops_the_programs_too(smoke_run, tmp_path, observe):
+def test_ctrl_z_stops_the_programs_too(unbroken, tmp_path, observe):
     folder = RunFolder(tmp_path / "run")
-    process = start_script("train", "--config", SMOKE, "--out", folder.path, "--quiet")
+    process = start_script("train", "--config", SMOKE, "--out", folder.path, *SHORT)
     wait_until(process, lambda: len(folder.read_episodes()) >= 3)
     programs = [program_of(folder, name) for name in ("simulator", "controller")]
     os.killpg(process.pid, signal.SIGTSTP)  # as a terminal does
@@ -162,7 +170,7 @@ def test_ctrl_z_stops_the_programs_too(smoke_run, tmp_path, observe):
     time.sleep(0.5)
     assert len(folder.read_episodes()) == rows
     os.killpg(process.pid, signal.SIGCONT)
-    assert expect_unbroken(process, folder, smoke_run) == []
+    assert expect_unbroken(process, folder, unbroken) == []
     observe("stopped at once, same table and policy")
 
 

@@ -205,6 +205,10 @@ static const struct {
     {"rbf.initial_weight=20", "rbf.weight_limit=10",
      "[rbf] initial_weight = 20: must be in magnitude at most [rbf] weight_limit = 10"},
     {"rbf.initial_weight=-20", "rbf.weight_limit=10", "[rbf] initial_weight = -20: must be in magnitude"},
+    {"safety.crawler_speed=0.2", "action.crawler_speed=0.25",
+     "[safety] crawler_speed = 0.2: must be at least [action] crawler_speed = 0.25"},
+    {"action.joint_speed=0.75", "safety.joint_speed=0.5",
+     "[safety] joint_speed = 0.5: must be at least [action] joint_speed = 0.75"},
     {"episode.decision_period_s=0.5", "simulator.time_step_s=0.003",
      "[episode] decision_period_s = 0.5: must be a whole number of [simulator] time_step_s = 0.003"},
     {"episode.decision_period_s=0.01", "simulator.time_step_s=0.02", "[episode] decision_period_s = 0.01: must be"},
@@ -240,6 +244,8 @@ static const struct {
 } agreements[] = {
     {"rbf.initial_width=0.5", "rbf.width_floor=0.5"},
     {"rbf.initial_weight=-10", "rbf.weight_limit=10"},
+    {"safety.crawler_speed=0.25", "action.crawler_speed=0.25"},
+    {"safety.joint_speed=2", "action.joint_speed=2"},
     {"episode.decision_period_s=0.02", "simulator.time_step_s=0.02"},
     {"episode.decision_period_s=0.3", "simulator.time_step_s=0.003"},
     {"sensors.joint_delay_s=0.1", "simulator.time_step_s=0.005"},
@@ -415,9 +421,9 @@ static void check_hash(const settings *s, uint64_t expected) {
 START_TEST(hash_is_that_of_earlier_checkpoints) {
     settings s = settings_default();
     char error[ERROR_LENGTH] = "";
-    check_hash(&s, 0x1acb3a4be75fb5ec);
+    check_hash(&s, 0xcddc630e68313790);
     ck_assert_msg(settings_read(&s, CONFIG_DIR "/paper.ini", error), "%s", error);
-    check_hash(&s, 0x8b32f2076274ee41);
+    check_hash(&s, 0xbce462f8ef3b7667);
 }
 END_TEST
 

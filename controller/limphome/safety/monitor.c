@@ -14,7 +14,7 @@ lh_monitor_config lh_monitor_config_default(void) {
         .joint = {.speed = 0.5f, .acceleration = 2.0f},
         .stop_clearance = 0.0f,
         .margin_floor = 0.0f,
-        .tilt = 0.9f,
+        .tilt = LH_PI / 3.0f,
         .slack = {.position = 1.0f, .attitude = 1.0f, .joint = 0.5f},
     };
 }

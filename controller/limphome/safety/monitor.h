@@ -44,7 +44,8 @@ typedef struct lh_monitor_config {
     lh_motion_limit joint;   /* default 0.5 rad/s and 2 rad/s^2 */
     float stop_clearance;    /* no joint is driven nearer to its stop, 0 to LH_STOP_CLEARANCE_MAX [rad]; default 0 */
     float margin_floor;      /* the margin (11) is not lowered below it, LH_MARGIN_FLOOR_MIN to _MAX [m]; default 0 */
-    float tilt;              /* of the body, beyond which nothing moves, LH_TILT_LIMIT_MIN to _MAX [rad]; default 0.9 */
+    float tilt; /* of the body, beyond which nothing moves, LH_TILT_LIMIT_MIN to _MAX [rad]; default pi/3, which is a
+                   tumble: a robot that is put back then is not held for ever */
     lh_jump_limits slack; /* what a state may differ from the one before more than the fastest motion explains, each 0
                              to LH_JUMP_MAX; default 1 m, 1 rad, 0.5 rad */
 } lh_monitor_config;

@@ -6,6 +6,7 @@ The rows are the tests marked `fault` (test/conftest.py): the table says what it
 import json
 import sys
 from dataclasses import asdict, dataclass
+from itertools import groupby
 from pathlib import Path
 
 from limphome_lab import command, paths
@@ -40,7 +41,7 @@ class Collector:
             observed = report.observed if report.passed else reason(report)
             passed = report.passed and bool(observed)  # a test that observed nothing has shown nothing
             self.rows.append(Row(**report.fault, observed=observed, passed=passed, test=report.nodeid))
-            print(f"{'passed' if report.passed else 'LOST':6}  {self.rows[-1].fault}", file=self.out, flush=True)
+            print(f"{verdict(self.rows[-1]):6}  {self.rows[-1].fault}", file=self.out, flush=True)
         elif report.failed:
             self.rows[-1].passed = False
             self.rows[-1].observed = reason(report)
@@ -73,7 +74,7 @@ def cut(text):
 def table(rows):
     """For people; the JSON has the whole texts."""
     lines = [("fault", "injected", "expected", "observed", "")]
-    lines += [(row.fault, row.injected, row.expected, row.observed, "passed" if row.passed else "LOST") for row in rows]
+    lines += [(row.fault, row.injected, row.expected, row.observed, verdict(row)) for row in rows]
     lines = [tuple(map(cut, line)) for line in lines]
     widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
     return "\n".join(
@@ -81,11 +82,33 @@ def table(rows):
     )
 
 
+def markdown(rows):
+    """The whole texts, under a heading for each file of tests."""
+    lines = ["# Faults", "", f"What `scripts/faults --markdown` wrote: {count(rows)}.", ""]
+    for file, its_rows in groupby(rows, lambda row: row.test.partition("::")[0]):
+        lines += [f"## {Path(file).stem.removeprefix('test_').replace('_', ' ').capitalize()}", ""]
+        lines += ["| fault | injected | expected | observed | |", "|---|---|---|---|---|"]
+        for row in its_rows:
+            cells = (row.fault, row.injected, row.expected, row.observed, verdict(row))
+            lines.append("| " + " | ".join(cell.replace("|", "\\|").replace("\n", " ") for cell in cells) + " |")
+        lines.append("")
+    return "\n".join(lines)
+
+
+def verdict(row):
+    return "passed" if row.passed else "LOST"
+
+
+def count(rows):
+    return f"{len(rows)} faults injected, {sum(not row.passed for row in rows)} lost"
+
+
 def parse_arguments():
     parser = command.parser(
         "faults", "Injects faults into link, programs and files, and tells what came of each.", "--json faults.json"
     )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the rows, with their whole texts")
+    parser.add_argument("--markdown", metavar="FILE", type=Path, help="write them as a page, such as docs/faults.md")
     parser.add_argument("-k", dest="selected", metavar="WORDS", help="only those whose test's name holds these words")
     return parser.parse_args()
 
@@ -95,11 +118,12 @@ def main():
     args = parse_arguments()
     rows = inject(paths.ROOT / "test", args.selected, sys.stderr)
     print(table(rows))
-    lost = sum(not row.passed for row in rows)
-    print(f"{len(rows)} faults injected, {lost} lost")
+    print(count(rows))
     if args.json:
         args.json.write_text(json.dumps([asdict(row) for row in rows], indent=2) + "\n")
-    return 1 if lost else 0
+    if args.markdown:
+        args.markdown.write_text(markdown(rows))
+    return 0 if all(row.passed for row in rows) else 1
 
 
 if __name__ == "__main__":

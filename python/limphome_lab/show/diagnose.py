@@ -34,6 +34,9 @@ def read_evidence(folder, episodes):
     settings = {section: dict(keys) for section, keys in folder.settings().items()}
     end = episodes[-learned.WINDOW :]
     of_episode = [(episode, states_of(episode, encoded)) for episode, encoded, _ in ended]
+    of_episode = [(episode, states) for episode, states in of_episode if len(states) > 1]  # recording.limit_mb
+    if not of_episode:
+        raise runfolder.InputError(f"{folder.messages}: holds no episode that has ended with its states")
     period = float(settings["episode"]["decision_period_s"])
     evidence = Evidence(settings, end, [_track(episode, states, period) for episode, states in of_episode])
     if settings["learner"]["kind"] == "q_learning":

@@ -227,7 +227,7 @@ START_TEST(any_inputs) {
             ck_assert_uint_eq(v.stilled >> k & 1u, is_stilled);
             stilled += is_stilled;
             if (is_stilled && whole == 0) {
-                ck_assert_uint_ne(lh_interlock_hazards(&guarded[k], joints_unsafe) & v.hazards, 0);
+                ck_assert((lh_interlock_hazards(&guarded[k], joints_unsafe) & v.hazards) != 0);
             }
         }
     }

@@ -210,9 +210,9 @@ END_TEST
 START_TEST(a_tilted_robot_does_not_move) {
     init();
     lh_state state = standing();
-    state.orientation = lh_quat_about((lh_vec3){1.0f, 0.0f, 0.0f}, 0.89f);
+    state.orientation = lh_quat_about((lh_vec3){1.0f, 0.0f, 0.0f}, 1.04f);
     ck_assert_uint_eq(check(&state, action_of(FORWARD, STILL, STILL, STILL)), 0);
-    state.orientation = lh_quat_about((lh_vec3){1.0f, 0.0f, 0.0f}, -0.91f);
+    state.orientation = lh_quat_about((lh_vec3){1.0f, 0.0f, 0.0f}, -1.06f);
     lh_monitor_begin(&monitor);
     ck_assert_uint_eq(check(&state, action_of(FORWARD, STILL, FORWARD, STILL)), LH_HAZARD_TILT);
     expect_executed(STILL, STILL, STILL, STILL, 1u << 1 | 1u << 3);
@@ -241,7 +241,7 @@ START_TEST(a_joint_that_does_not_move_is_found) {
     }
     ck_assert_uint_eq(intervention.hazards, LH_HAZARD_STUCK);
     ck_assert_uint_eq(intervention.stilled, 1u << 3);
-    ck_assert_float_ne(velocity[2], 0.0f);
+    ck_assert(velocity[2] != 0.0f);
     ck_assert_int_eq(decisions, 17); /* down at 11, 13 and 15, as seen at 16 */
     lh_monitor_begin(&monitor);      /* put back it may be sound */
     ck_assert_uint_eq(check(&state, action_of(STILL, STILL, FORWARD, STILL)), 0);
@@ -318,7 +318,7 @@ static lh_state any_state(lh_random *random, const lh_state *near) {
     const lh_vec3 axis = {between(random, -1.0f, 1.0f), between(random, -1.0f, 1.0f), 0.0f};
     state.orientation = lh_quat_multiply(
         lh_quat_about((lh_vec3){0.0f, 0.0f, 1.0f}, between(random, -3.0f, 3.0f)),
-        lh_quat_about(lh_vec3_scale(axis, 1.0f / (lh_vec3_norm(axis) + 1e-6f)), between(random, 0.0f, 1.1f)));
+        lh_quat_about(lh_vec3_scale(axis, 1.0f / (lh_vec3_norm(axis) + 1e-6f)), between(random, 0.0f, 1.3f)));
     for (int32_t k = 2; k < 5; k++) {
         const lh_actuator *joint = &task.robot.actuators[k];
         state.actuator_position[k] = between(random, joint->low - 0.1f, joint->high + 0.1f);
@@ -356,7 +356,7 @@ START_TEST(any_states) {
                 const float ahead = state.actuator_position[k + 1] + 0.5f * velocity[k + 1];
                 ck_assert(k == RIGHT || (velocity[k + 1] > 0.0f ? ahead <= actuator->high : ahead >= actuator->low));
                 ck_assert(state.actuator_failed[k + 1] == 0);
-                ck_assert_float_le(lh_quat_tilt(lh_quat_normalise(state.orientation)), 0.9f);
+                ck_assert_float_le(lh_quat_tilt(lh_quat_normalise(state.orientation)), 1.0472f);
             }
         }
         ck_assert_float_le(fabsf(velocity[1] - before[1]), executed[RIGHT] == STILL ? 0.3f : 0.5f);
