@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Renews the hashes: .venv/bin/python scripts/pin.py
 
 Writes requirements*.txt beside it, from which pip installs nothing but files with the hashes told there: all that the
