@@ -46,7 +46,9 @@ static bool open_group(udpm *bus, const udpm_url *url, char error[ERROR_LENGTH])
     return (set(bus->sender, IPPROTO_IP, IP_MULTICAST_TTL, &url->ttl, sizeof url->ttl) &&
             connect(bus->sender, (const struct sockaddr *)&url->group, sizeof url->group) == 0 &&
             join(bus->receiver, url)) ||
-           fail_with(error, "%s; is the multicast group routed to an interface? (ip route add 239.255.76.67/32 dev lo)",
+           fail_with(error,
+                     "%s; is the multicast group routed to an interface? (ip route add 239.255.76.67/32 dev lo src "
+                     "127.0.0.1)",
                      strerror(errno));
 }
 

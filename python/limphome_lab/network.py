@@ -15,7 +15,8 @@ from limphome_lab.ending import Ending
 GROUP = "239.255.76.67"
 PORT = 7667
 RECEIVE_BUFFER = 2 << 20  # [bytes]; the kernel grants up to net.core.rmem_max
-LOOPBACK_UP = f"ip link set lo up multicast on && ip route add {GROUP}/32 dev lo"
+# with the loopback's own address: Linux 6 drops what claims to come from one of another interface
+LOOPBACK_UP = f"ip link set lo up multicast on && ip route add {GROUP}/32 dev lo src 127.0.0.1"
 
 # Set in a process that is inside a run's network: "private" or the port on the host's.
 ENVIRONMENT = "LIMPHOME_NETWORK"

@@ -6,7 +6,7 @@ for hidden in "$2" "$1"; do
     mount -t tmpfs none "$hidden"
 done
 ip link set lo up multicast on
-ip route add 239.255.76.67/32 dev lo
+ip route add 239.255.76.67/32 dev lo src 127.0.0.1
 cd "$3"
 test ! -e "$1/config"
 

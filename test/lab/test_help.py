@@ -18,6 +18,7 @@ SCRIPTS = (
     "plot",
     "results",
     "setup",
+    "soak",
     "spy",
     "study",
     "test",

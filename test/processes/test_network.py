@@ -58,6 +58,21 @@ def test_command_that_is_told_makes_the_host_network_good(tmp_path):
     assert len(RunFolder(tmp_path / "run").read_episodes()) == 2
 
 
+@pytest.mark.fault(
+    "the host's network has an interface with an address of its own",
+    injected="a pair of virtual interfaces, one with 10.9.0.1, before the command that the refusal tells",
+    expected="a run with --network host hears itself over the loopback",
+)
+def test_host_network_beside_another_interface(tmp_path, observe):
+    other = "ip link add va type veth peer name vb && ip addr add 10.9.0.1/24 dev va && ip link set va up"
+    if subprocess.run([*NO_NETWORK, "sh", "-c", other], capture_output=True).returncode != 0:
+        pytest.skip("no virtual interfaces here")
+    inside = [*NO_NETWORK, "sh", "-c", f'{other} && {network.LOOPBACK_UP} && exec "$@"', "sh"]
+    result = train_inside(inside, "--network", "host", "--out", tmp_path / "run")
+    observe(f"exit code {result.returncode}")
+    assert result.returncode == 0, result.stderr
+
+
 def test_host_network_is_used_where_namespaces_are_not_permitted(tmp_path):
     forbidding = tmp_path / "bin" / "unshare"
     forbidding.parent.mkdir()

@@ -21,7 +21,7 @@ LOG_LIMIT_MB = 20  # of the recording
 MOST_LOG = 1.5  # times the limit that the recording may take
 ANSWER_EVERY_S = 0.2  # the plant's challenge
 BIN_US = 10  # of the histogram
-UNTIL_STOPPED = 100_000_000  # episodes
+UNTIL_STOPPED = 1_000_000  # episodes
 EDGES_US = (20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 50000, 100000)  # of the histogram that is printed
 
 
