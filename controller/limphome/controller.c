@@ -103,17 +103,20 @@ static void execute(lh_controller *controller, const lh_state *state, lh_decisio
 }
 
 lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh_decision *decision) {
-    lh_error error = lh_state_validate(state, &controller->task.robot);
+    lh_monitor *monitor = &controller->monitor;
+    const lh_robot *robot = &controller->task.robot;
+    lh_error error = lh_state_validate(state, robot);
+    if (error == LH_OK && monitor->config.active && !lh_monitor_believes(monitor, robot, state)) {
+        hold(controller, LH_HAZARD_JUMP, decision);
+        return LH_OK;
+    }
+    if (error == LH_OK) {
+        error = lh_task_observe(&controller->task, state, &decision->observed);
+    }
     if (error != LH_OK) {
         hold(controller, LH_HAZARD_INVALID, decision);
         return error;
     }
-    lh_monitor *monitor = &controller->monitor;
-    if (monitor->config.active && !lh_monitor_believes(monitor, &controller->task.robot, state)) {
-        hold(controller, LH_HAZARD_JUMP, decision);
-        return LH_OK;
-    }
-    lh_task_observe(&controller->task, state, &decision->observed);
     lh_learner_step(&controller->learner, &decision->observed, &decision->choice);
     memset(&decision->intervention, 0, sizeof decision->intervention);
     memset(decision->velocity, 0, sizeof decision->velocity);

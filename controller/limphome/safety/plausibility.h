@@ -31,7 +31,7 @@ typedef struct lh_place {
 
 typedef struct lh_plausibility {
     bool known;        /* `believed` is */
-    int32_t agreeing;  /* states that followed on each other since, but not on `believed` */
+    uint32_t agreeing; /* states that followed on each other since, but not on `believed` */
     lh_place believed; /* newest that was */
     lh_place doubtful; /* newest of those */
 } lh_plausibility;

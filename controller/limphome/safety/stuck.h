@@ -33,9 +33,9 @@ typedef struct lh_stuck {
 void lh_stuck_begin(lh_stuck *stuck);
 
 /* Joint `index` was to go `way` and went `gone` [rad]. One that was not to go tells nothing. */
-/*@ requires \valid(stuck) && 0 <= index < LH_MAX_ACTUATORS && lh_stuck_counts(stuck);
+/*@ requires \valid(stuck) && 0 <= index < LH_MAX_ACTUATORS;
   @ assigns stuck->up[index], stuck->down[index];
-  @ ensures lh_stuck_counts(stuck);
+  @ ensures \old(lh_stuck_counts(stuck)) ==> lh_stuck_counts(stuck);
   @ ensures idle: way == 0 ==>
   @   stuck->up[index] == \old(stuck->up[index]) && stuck->down[index] == \old(stuck->down[index]);
   @ ensures one_at_a_time: (stuck->up[index] == 0 && stuck->down[index] == 0) ||

@@ -93,6 +93,8 @@ END_TEST
 START_TEST(nothing_is_done_by_what_is_no_learner) {
     init(&learner);
     learner.kind = unknown;
+    lh_learner_executed(&learner, 0);
+    lh_learner_keep_clear(&learner, 0.5f);
     other = learner;
     lh_learner_begin(&learner);
     step(&learner, true, 1.0f);
