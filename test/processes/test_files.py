@@ -229,7 +229,7 @@ def test_killed_run_is_gone_on_with(smoke_run, tmp_path, observe):
 @pytest.mark.fault(
     "a run that would fill the disk",
     injected="[recording] limit_mb = 1, and ten times as many decisions",
-    expected="the recording stays within the limit and what comes between two resets; figures, diagnosis and the manifest know of it; the run is the same",
+    expected="it stays within the limit and what comes between two resets; figures and manifest know; the run is the same",
 )
 def test_recording_is_bounded(smoke_run, tmp_path, observe):
     folder = RunFolder(tmp_path / "run")
