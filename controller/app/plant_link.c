@@ -77,8 +77,6 @@ static void on_state(void *user, const limphome_robot_state_t *state) {
             l->bus.counts.rejected_ahead++;
             break;
         case SESSION_OTHER:
-            l->bus.counts.rejected_session++;
-            break;
         case SESSION_OLD:
         default:
             l->bus.counts.rejected_session++;

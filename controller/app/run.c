@@ -53,7 +53,7 @@ static bool read_inputs(run *r, const command_line *line, run_folder_place *plac
 }
 
 bool run_check(run *r, const command_line *line) {
-    run_folder_place place = {.episodes = 0};
+    run_folder_place place = {0};
     const bool good = read_inputs(r, line, &place);
     if (good && line->resume) {
         printf("goes on after episode %" PRId32 "\n", place.episodes);
@@ -62,7 +62,7 @@ bool run_check(run *r, const command_line *line) {
 }
 
 bool run_open(run *r, const command_line *line) {
-    run_folder_place place = {.episodes = 0};
+    run_folder_place place = {0};
     if (!read_inputs(r, line, &place) || !plant_link_open(&r->link, line->lcm_url, &r->settings, &r->folder.recording,
                                                           r->error)) { /* before there is a folder in the way */
         return false;

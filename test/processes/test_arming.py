@@ -6,6 +6,7 @@ import signal
 import subprocess
 import termios
 import time
+from pathlib import Path
 
 import pytest
 from bus import REAL_TIME, Bus, controller, inside, simulator
@@ -18,6 +19,7 @@ from limphome_lab.messages import read_log, recorded
 from limphome_lab.runfolder import RunFolder
 
 SPEED = 0.3
+BUILD = Path(os.environ.get("LIMPHOME_BUILD", ROOT / "build"))
 PATIENT = [*REAL_TIME, "link.sender_timeout_s=1", "link.operator_timeout_s=1", "failure.actuator=none"]
 
 
@@ -244,6 +246,22 @@ def test_a_controller_waits_for_arming(tmp_path, observe):
     commands = [message for _, message in recorded(log, COMMAND)]
     assert not any(any(command.velocity) for command in commands[:20])
     assert not next(decision for _, decision in recorded(log, DECISION)).learned
+
+
+@pytest.mark.parametrize(
+    "case",
+    ["InRealTimeAFaultDisarms", "InRealTimeArmingBeginsAtRest", "AMachineThatStaysIsResetAfterAFaultAlone"],
+)
+@pytest.mark.fault(
+    "a machine that fails, is armed again at once, or cannot be carried back",
+    injected="a machine of a few lines in the plant's loop",
+    expected="as the name says",
+)
+def test_machines_in_the_loop(case, observe):
+    program = BUILD / "bin" / "test_plant"
+    result = subprocess.run([program, f"--gtest_filter=Loop.{case}"], capture_output=True, text=True, timeout=60)
+    observe(result.stdout.strip().splitlines()[-1])
+    assert result.returncode == 0 and "[  PASSED  ] 1 test." in result.stdout, result.stdout
 
 
 @pytest.fixture

@@ -324,6 +324,91 @@ TEST(Loop, InRealTimeAMachineThatDoesNotKeepUpObeysAllTheSame) {
     EXPECT_NE(std::find(toy.commands.begin(), toy.commands.end(), Rates{0.2}), toy.commands.end());
 }
 
+// Once it has moved, its readings cannot be trusted until it is reset.
+class FailingToy : public Toy {
+   public:
+    void reset(int64_t episode) override {
+        Toy::reset(episode);
+        failed_ = false;
+    }
+    void command(const double velocity[max_actuators]) override {
+        Toy::command(velocity);
+        failed_ = failed_ || velocity[0] > 0;
+    }
+    bool diverged() const override { return failed_; }
+
+   private:
+    bool failed_ = false;
+};
+
+TEST(Loop, InRealTimeAFaultDisarms) {
+    FailingToy toy;
+    Plant plant(toy, real_time());
+    bool was_armed = false;
+    plant.controller.answer = [&](const robot_state_t &state) {
+        was_armed = was_armed || state.armed == 1;
+        if (was_armed && state.armed == 0) {
+            plant.stop = 1;
+        } else {
+            plant.controller.arm(state);
+            plant.controller.command(state, {0.2});
+        }
+    };
+    EXPECT_TRUE(plant.run());
+    EXPECT_EQ(plant.controller.states.back().armed, 0);
+    EXPECT_EQ(plant.link.arming().reason(), status_t::MACHINE_FAILED);
+    EXPECT_EQ(plant.controller.statuses.back().faults, 1);
+}
+
+// What was commanded before it was disarmed is not gone on with, however soon it is armed again.
+TEST(Loop, InRealTimeArmingBeginsAtRest) {
+    Toy toy;
+    settings s = real_time();
+    s.link.command_timeout_s = 10;
+    Plant plant(toy, s);
+    std::size_t rearmed = 0;
+    plant.controller.answer = [&](const robot_state_t &state) {
+        const bool moving = toy.commands.back()[0] > 0.1;
+        if (moving && rearmed == 0) {
+            plant.link.arming().disarm(status_t::BY_OPERATOR, monotonic_now());
+            rearmed = toy.commands.size() + 5;
+        } else if (rearmed == 0 || state.armed == 0) {
+            plant.controller.arm(state);
+            if (rearmed == 0) {
+                plant.controller.command(state, {0.2});
+            }
+        }
+        plant.stop = rearmed > 0 && toy.commands.size() > rearmed + 20 ? 1 : 0;
+    };
+    EXPECT_TRUE(plant.run());
+    EXPECT_TRUE(plant.link.arming().armed());
+    ASSERT_GT(toy.commands.size(), rearmed + 20);
+    EXPECT_EQ(toy.commands[rearmed + 20], rest);
+}
+
+// Nobody carries it back: only a fault has it made fit again.
+TEST(Loop, AMachineThatStaysIsResetAfterAFaultAlone) {
+    class Staying : public DivergingToy {
+       public:
+        bool can_be_carried_back() const override { return false; }
+    };
+    Staying toy;
+    Plant plant(toy, lockstep());
+    int sessions = 0;
+    plant.controller.answer = [&](const robot_state_t &state) {
+        EXPECT_EQ(state.reset, robot_state_t::WHERE_IT_IS);
+        if (++sessions < 4) {
+            plant.controller.ask_for_reset(state, 5);
+        } else {
+            EXPECT_EQ(toy.episodes.empty(), sessions == 4);
+            plant.controller.command(state, {0.1});
+            plant.stop = sessions == 6 ? 1 : 0;
+        }
+    };
+    EXPECT_TRUE(plant.run());
+    EXPECT_FALSE(toy.episodes.empty());
+}
+
 TEST(Loop, MachineIsAtRestWhateverEndsTheLoop) {
     class Broken : public SimulatedToy {
        public:
