@@ -62,7 +62,7 @@ bool run_check(run *r, const command_line *line) {
 }
 
 bool run_open(run *r, const command_line *line) {
-    run_folder_place place;
+    run_folder_place place = {0};
     if (!read_inputs(r, line, &place) || !plant_link_open(&r->link, line->lcm_url, &r->settings, &r->folder.recording,
                                                           r->error)) { /* before there is a folder in the way */
         return false;
@@ -298,6 +298,8 @@ bool run_close(run *r, bool complete) {
         if (complete) {
             run_folder_checkpoint(&r->folder, &r->learned, r->error);
         }
+    } else if (r->resuming && complete) { /* it ended between its last checkpoint and its policy */
+        run_folder_policy(&r->folder, &r->learned, r->error);
     }
     send_status(r, failed ? LIMPHOME_STATUS_T_FAULT : LIMPHOME_STATUS_T_FINISHED);
     run_folder_close(&r->folder, r->error);

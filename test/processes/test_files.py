@@ -77,6 +77,18 @@ def test_resume_steps_back(smoke_run, run_copy, observe, damage):
 
 
 @pytest.mark.fault(
+    "the controller dies between its last checkpoint and its policy",
+    injected="policy.lcm removed, --resume",
+    expected="the policy is written from the checkpoint, the same bytes",
+)
+def test_policy_that_was_not_written(smoke_run, run_copy, observe):
+    run_copy.policy.unlink()
+    run_script("train", "--resume", run_copy.path, "--quiet", "--no-figures")
+    expect_whole(run_copy, smoke_run)
+    observe("same bytes")
+
+
+@pytest.mark.fault(
     "all checkpoints are damaged",
     injected="a bit turned in each",
     expected="--resume is refused, and table and recording stay as they are",
@@ -229,14 +241,14 @@ def test_killed_run_is_gone_on_with(smoke_run, tmp_path, observe):
 @pytest.mark.fault(
     "a run that would fill the disk",
     injected="[recording] limit_mb = 1, and ten times as many decisions",
-    expected="the recording stays below the limit; figures, diagnosis and the manifest know of it; the run is the same",
+    expected="it stays within the limit and what comes between two resets; the manifest tells; the run is the same",
 )
 def test_recording_is_bounded(smoke_run, tmp_path, observe):
     folder = RunFolder(tmp_path / "run")
     run_script("train", "--config", SMOKE, "--out", folder.path, "--quiet", "--set", "recording.limit_mb=1")
     expect_whole(folder, smoke_run)
     before, after = smoke_run.messages.stat().st_size, folder.messages.stat().st_size
-    assert before > 4_000_000 and after < 2_000_000
+    assert before > 4_000_000 and after < 2_500_000  # it is looked at where the plant is reset, each 1.5 MB
     assert json.loads(folder.manifest.read_text())["recording"] == {"bytes": after, "thinned": True}
     assert json.loads(smoke_run.manifest.read_text())["recording"] == {"bytes": before, "thinned": False}
     assert (folder.path / "controller.log").read_text().count("messages.lcmlog has grown to 1 MB") == 1
