@@ -24,6 +24,14 @@ os.environ["PYTHONPATH"] = os.pathsep.join(PACKAGES)
 OBSERVED = pytest.StashKey[list]()
 
 
+@pytest.fixture(scope="session", autouse=True)
+def own_registry(tmp_path_factory):
+    """Pairs that run here are not found from elsewhere, nor others from here."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_RUNTIME_DIR", str(tmp_path_factory.mktemp("runtime")))
+        yield
+
+
 def pytest_configure(config):
     config.addinivalue_line("markers", "fault(fault, *, injected, expected): the test is a row of the table of faults")
 
