@@ -72,6 +72,18 @@ static bool check_relation(const struct relation *relation, const settings *s, c
                      other->section, other->name, other_value);
 }
 
+/* The monitor stills what changes its speed faster than its limit: a limit too low for the period stills all for ever.
+ */
+static bool check_acceleration(const settings *s, const char *kind, double limit, double speed, char *error) {
+    const double period = s->episode.decision_period_s;
+    const bool watched = s->safety.monitor == SETTINGS_MONITOR_ON || s->simulator.pace == SETTINGS_REAL_TIME;
+    return !watched || limit * period >= speed ||
+           fail_with(error,
+                     "[safety] %s_acceleration = %g: nothing would ever move: must be at least %g, to come to [action] "
+                     "%s_speed = %g in [episode] decision_period_s = %g",
+                     kind, limit, speed / period, kind, speed, period);
+}
+
 bool settings_check(const settings *s, char error[ERROR_LENGTH]) {
     bool good = true;
     for (size_t i = 0; i < SETTINGS_KEY_COUNT && good; i++) {
@@ -80,5 +92,6 @@ bool settings_check(const settings *s, char error[ERROR_LENGTH]) {
     for (size_t i = 0; i < sizeof relations / sizeof relations[0] && good; i++) {
         good = check_relation(&relations[i], s, error);
     }
-    return good;
+    return good && check_acceleration(s, "crawler", s->safety.crawler_acceleration, s->action.crawler_speed, error) &&
+           check_acceleration(s, "joint", s->safety.joint_acceleration, s->action.joint_speed, error);
 }

@@ -144,7 +144,22 @@ static void begin_session(run *r, const limphome_robot_state_t *state) {
     r->restarted = r->gap = false;
 }
 
-/* A plant that is not armed is answered, as a sign of life, but nothing is decided. */
+/* Nobody puts back a robot that cannot be carried: one that has tumbled lies until somebody has righted it. */
+static bool lies(const run *r, const limphome_robot_state_t *state) {
+    const lh_state sensed = convert_state(state);
+    return state->reset == LIMPHOME_ROBOT_STATE_T_WHERE_IT_IS && !r->controller.task.acting &&
+           lh_quat_tilt(lh_quat_normalise(sensed.orientation)) > r->config.task.episode.tumble_tilt;
+}
+
+/* Why no decision is due on a state; a constant of status_t. */
+static int8_t reason_to_rest(const run *r, const limphome_robot_state_t *state) {
+    if (state->lockstep == 0 && state->armed == 0) {
+        return LIMPHOME_STATUS_T_NOT_ARMED;
+    }
+    return lies(r, state) ? LIMPHOME_STATUS_T_TUMBLED : LIMPHOME_STATUS_T_NONE;
+}
+
+/* Answers a state, as a sign of life, by rest. */
 static void hold(run *r, const limphome_robot_state_t *state) {
     static const float rest[LH_MAX_ACTUATORS];
     plant_link_command(&r->link, state, rest);
@@ -167,7 +182,7 @@ static void step(run *r, const limphome_robot_state_t *state, lh_decision *decis
         r->link.invalid = bus_now();
         notice_print(&r->invalid, bus_now(), "state %" PRId64 ": %s; holding still", state->seq, lh_error_text(error));
     } else {
-        trouble_useful(&r->trouble, true, bus_now());
+        trouble_useful(&r->trouble, LIMPHOME_STATUS_T_NONE, bus_now());
     }
 }
 
@@ -205,9 +220,10 @@ static void handle_state(run *r, const plant_state *taken) {
         begin_session(r, &taken->state);
     }
     r->gap = r->gap || taken->gap;
-    if (taken->state.lockstep == 0 && taken->state.armed == 0) {
+    const int8_t reason = reason_to_rest(r, &taken->state);
+    if (reason != LIMPHOME_STATUS_T_NONE) {
         hold(r, &taken->state);
-        trouble_useful(&r->trouble, false, bus_now());
+        trouble_useful(&r->trouble, reason, bus_now());
     } else {
         decide(r, &taken->state);
     }

@@ -8,6 +8,7 @@ static const char *const words[TROUBLE_KINDS] = {
     [LIMPHOME_STATUS_T_NOT_OBEYED] = "the plant does not obey us; another controller has its session",
     [LIMPHOME_STATUS_T_INVALID_STATES] = "the plant's states are invalid or too old; holding still",
     [LIMPHOME_STATUS_T_NOT_ARMED] = "the plant is not armed; holding still",
+    [LIMPHOME_STATUS_T_TUMBLED] = "the robot has tumbled and cannot be carried back; holding still until it is righted",
     [LIMPHOME_STATUS_T_FLOODED] = "more messages come than can be looked at",
 };
 
@@ -27,10 +28,15 @@ static void set_reason(trouble *t, int8_t reason, double now) {
     t->reason = reason;
 }
 
-void trouble_useful(trouble *t, bool armed, double now) {
+/* Whether the plant is answered, but by rest. */
+static bool rests(const trouble *t) {
+    return t->reason == LIMPHOME_STATUS_T_NOT_ARMED || t->reason == LIMPHOME_STATUS_T_TUMBLED;
+}
+
+void trouble_useful(trouble *t, int8_t reason, double now) {
     t->useful = now;
-    if (!armed) {
-        set_reason(t, LIMPHOME_STATUS_T_NOT_ARMED, now);
+    if (reason != LIMPHOME_STATUS_T_NONE) {
+        set_reason(t, reason, now);
     } else if (t->reason != LIMPHOME_STATUS_T_FLOODED) {
         t->reason = LIMPHOME_STATUS_T_NONE;
     }
@@ -60,7 +66,7 @@ double trouble_look(trouble *t, const plant_link *l, double now) {
     }
     if (now - t->useful >= t->timeout) {
         set_reason(t, cause(t, l, now), now);
-    } else if (t->reason != LIMPHOME_STATUS_T_NOT_ARMED) {
+    } else if (!rests(t)) {
         set_reason(t, now - t->flooded < usual_pause ? LIMPHOME_STATUS_T_FLOODED : LIMPHOME_STATUS_T_NONE, now);
     }
     return pause > 0 ? pause : 0;
@@ -73,6 +79,7 @@ int8_t trouble_condition(const trouble *t, int8_t condition) {
         case LIMPHOME_STATUS_T_FLOODED:
             return LIMPHOME_STATUS_T_DEGRADED;
         case LIMPHOME_STATUS_T_INVALID_STATES:
+        case LIMPHOME_STATUS_T_TUMBLED:
             return LIMPHOME_STATUS_T_FAULT;
         default:
             return LIMPHOME_STATUS_T_WAITING;

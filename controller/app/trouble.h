@@ -8,13 +8,13 @@
 #include "plant_link.h"
 #include "settings.h"
 
-enum { TROUBLE_KINDS = 7 }; /* constants of status_t from NONE to FLOODED */
+enum { TROUBLE_KINDS = 8 }; /* constants of status_t from NONE to FLOODED */
 
 typedef struct trouble {
     double timeout;   /* without a state to decide on before anything is said [s] */
     double give_up;   /* before the run is given up [s]; 0: never */
     int8_t reason;    /* a constant of status_t */
-    double useful;    /* when a state was decided on, or a plant that is not armed was answered [s] */
+    double useful;    /* when a state was decided on or answered by rest [s] */
     double looked;    /* when we last looked [s] */
     int64_t overruns; /* at that time */
     double flooded;   /* when there was the last one [s] */
@@ -23,8 +23,9 @@ typedef struct trouble {
 
 void trouble_init(trouble *t, const settings *s, double now);
 
-/* A state of a plant that is armed, or is not, was dealt with at `now` [s]. */
-void trouble_useful(trouble *t, bool armed, double now);
+/* A state was decided on at `now` [s] (reason NONE), or answered by rest as the plant is NOT_ARMED or the robot
+ * TUMBLED: that lasts as long as a person takes. */
+void trouble_useful(trouble *t, int8_t reason, double now);
 
 /* Looks at the link at `now` [s]; call often. Returns for how long nobody looked beyond what is usual [s]: the process
  * was stopped, and what it has not heard says nothing. */

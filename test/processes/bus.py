@@ -57,6 +57,14 @@ def settings(*assignments):
     return [word for each in assignments for word in ("--set", each)]
 
 
+FAST = [  # decisions ten times a second; that needs accelerations that the monitor lets pass
+    "episode.decision_period_s=0.1",
+    "safety.crawler_acceleration=6",
+    "safety.joint_acceleration=6",
+]
+REAL_TIME = ["simulator.pace=real_time", *FAST]
+
+
 def simulator(*assignments):
     """Command line of a plant."""
     return [paths.program("simulator"), *COMMON, *settings(*assignments)]
@@ -67,7 +75,6 @@ def controller(out, *assignments):
 
 
 COMMON = ["--config", SMOKE, "--robot", ROOT / "config" / "crawler.urdf", "--lcm-url", network.lcm_url()]
-REAL_TIME = ["simulator.pace=real_time", "episode.decision_period_s=0.1"]
 
 
 class Program:

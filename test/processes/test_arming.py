@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
-from bus import REAL_TIME, Bus, controller, inside, simulator
+from bus import FAST, REAL_TIME, Bus, controller, inside, settings, simulator
 
 from conftest import ROOT, TIME_LIMIT_S, start_script, wait_until
 from limphome import arm_request_t, status_t
@@ -271,7 +271,7 @@ def launched(tmp_path, monkeypatch):
     processes = []
 
     def launch(*options, **streams):
-        command = ["launch", "--set", "episode.decision_period_s=0.1", "--set", "learner.kind=q_learning", *options]
+        command = ["launch", *settings(*FAST, "learner.kind=q_learning"), *options]
         if streams:
             process = subprocess.Popen([ROOT / "scripts" / command[0], *command[1:]], start_new_session=True, **streams)
         else:

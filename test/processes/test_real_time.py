@@ -8,8 +8,8 @@ import pytest
 from bus import REAL_TIME, Bus, FakeRobot, controller, inside, simulator
 
 from limphome import reset_request_t, status_t, velocity_command_t
-from limphome_lab.channels import COMMAND, DECISION, RESET, STATE
-from limphome_lab.messages import recorded
+from limphome_lab.channels import COMMAND, DECISION, EPISODE, RESET, STATE
+from limphome_lab.messages import TYPES, recorded
 from limphome_lab.runfolder import RunFolder
 
 SPEED = 0.3  # of both crawlers' levels [m/s]
@@ -143,7 +143,13 @@ def stopped(folder, which):
         return seen
 
 
-@pytest.mark.parametrize("which, reasons", [("plant", (9, 10)), ("controller", (9,))])
+@pytest.mark.parametrize(
+    "which, reasons",
+    [
+        ("plant", (status_t.CONTROLLER_SILENT, status_t.OPERATOR_SILENT)),
+        ("controller", (status_t.CONTROLLER_SILENT,)),
+    ],
+)
 @pytest.mark.fault(
     "a process that is stopped in real time",
     injected="SIGSTOP for 2 s, SIGCONT",
@@ -215,6 +221,57 @@ def test_a_mission_is_resumed_where_the_robot_stands(tmp_path, observe):
     assert seen["reset"] == 1 and seen["after"][1] > 0.9
     assert abs(to_go - (40 - seen["after"][1])) < 0.1
     assert len(RunFolder(tmp_path / "run").read_episodes()) == 0
+
+
+LYING = [0.5, -0.5, 0.5, 0.5]  # on its side
+
+
+def tumbled(folder):
+    """A robot that cannot be carried back tumbles, lies for 3 s and is righted."""
+    with Bus(folder) as bus:
+        robot = FakeRobot(lockstep=0)
+        bus.keep = (COMMAND, RESET, EPISODE)
+        bus.start(controller(f"{folder}/run", *REAL_TIME, "learning.episodes=100"))
+        moved, sessions, episodes = [], [], 0
+        for n in range(60):
+            lying = 15 <= n < 45
+            bus.say(STATE, robot.state(reset=1, **({"orientation": LYING} if lying else {})))
+            bus.listen(0.1)
+            robot.seq += 1
+            for channel, data in bus.heard:
+                message = TYPES[channel].decode(data)
+                if channel == RESET and message.session == robot.session:
+                    robot.begin(message)
+                    sessions.append(n)
+                elif channel == COMMAND and any(message.velocity):
+                    moved.append(n)
+                elif channel == EPISODE:
+                    episodes += 1
+            bus.heard.clear()
+        told = {(each.condition, each.reason) for each in bus.statuses[status_t.CONTROLLER]}
+        return {
+            "moved lying": sum(17 <= n < 45 for n in moved),
+            "moved righted": sum(n >= 45 for n in moved),
+            "sessions": sessions,
+            "episodes": episodes,
+            "told": (status_t.FAULT, status_t.TUMBLED) in told,
+            "words": bus.programs[0].words(),
+        }
+
+
+@pytest.mark.fault(
+    "a robot that tumbles and cannot be carried back",
+    injected="it lies on its side for 3 s and is then righted",
+    expected="one tumble; it is held still, FAULT with the reason, and goes on once it is righted",
+)
+def test_a_tumbled_robot_lies_until_it_is_righted(tmp_path, observe):
+    seen = inside(tumbled, str(tmp_path))
+    observe(
+        f"{seen['episodes']} episode ended, {len(seen['sessions'])} sessions; then {seen['moved righted']} commands"
+    )
+    assert seen["moved lying"] == 0 and seen["moved righted"] > 3
+    assert seen["episodes"] == 1 and len(seen["sessions"]) == 2
+    assert seen["told"] and "until it is righted" in seen["words"]
 
 
 def test_a_simulator_in_lockstep_can_stay_where_it_is(tmp_path):

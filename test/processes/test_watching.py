@@ -8,6 +8,7 @@ import signal
 import subprocess
 
 import pytest
+from bus import FAST, settings
 
 from conftest import ROOT, TIME_LIMIT_S, run_script, start_script, wait_until
 from limphome import checkpoint_t, policy_t
@@ -130,10 +131,7 @@ def launched(smoke_run, tmp_path, monkeypatch):
         "--arm",
         "--policy",
         smoke_run.path,
-        "--set",
-        "episode.step_limit=2",
-        "--set",
-        "episode.decision_period_s=0.1",
+        *settings("episode.step_limit=2", *FAST),
     )
     wait_until(process, registry.running)
     pair = registry.running()[0]

@@ -207,6 +207,12 @@ static const struct {
     {"rbf.initial_weight=-20", "rbf.weight_limit=10", "[rbf] initial_weight = -20: must be in magnitude"},
     {"safety.crawler_speed=0.2", "action.crawler_speed=0.25",
      "[safety] crawler_speed = 0.2: must be at least [action] crawler_speed = 0.25"},
+    {"simulator.pace=real_time", "episode.decision_period_s=0.1",
+     "[safety] crawler_acceleration = 2: nothing would ever move: must be at least 3, to come to [action] "
+     "crawler_speed "
+     "= 0.3 in [episode] decision_period_s = 0.1"},
+    {"safety.monitor=on", "safety.joint_acceleration=0.5",
+     "[safety] joint_acceleration = 0.5: nothing would ever move"},
     {"action.joint_speed=0.75", "safety.joint_speed=0.5",
      "[safety] joint_speed = 0.5: must be at least [action] joint_speed = 0.75"},
     {"episode.decision_period_s=0.5", "simulator.time_step_s=0.003",
@@ -246,6 +252,7 @@ static const struct {
     {"rbf.initial_weight=-10", "rbf.weight_limit=10"},
     {"safety.crawler_speed=0.25", "action.crawler_speed=0.25"},
     {"safety.joint_speed=2", "action.joint_speed=2"},
+    {"safety.monitor=off", "safety.joint_acceleration=0.5"},
     {"episode.decision_period_s=0.02", "simulator.time_step_s=0.02"},
     {"episode.decision_period_s=0.3", "simulator.time_step_s=0.003"},
     {"sensors.joint_delay_s=0.1", "simulator.time_step_s=0.005"},

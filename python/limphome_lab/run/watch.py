@@ -21,6 +21,7 @@ REASONS = {  # of status_t
     "NOT_OBEYED": "is not obeyed: the plant obeys another controller",
     "INVALID_STATES": "gets states that are invalid",
     "NOT_ARMED": "waits for the plant to be armed",
+    "TUMBLED": "waits for the robot, which has tumbled, to be righted",
     "FLOODED": "gets more messages than it can look at",
     "NO_CONTROLLER": "waits for a controller",
     "NOT_YET_ARMED": "is not armed yet",

@@ -41,8 +41,12 @@ class MyRobot final : public limphome::Machine {
 int main(int argc, char **argv) {
     settings s = settings_default();
     char error[ERROR_LENGTH] = "usage: driver URL EXPERIMENT";
-    if (argc != 3 || !settings_read(&s, argv[2], error) || !settings_set(&s, "simulator.pace=real_time", error) ||
-        !settings_set(&s, "episode.decision_period_s=0.02", error) || !settings_check(&s, error)) {
+    bool good = argc == 3 && settings_read(&s, argv[2], error);
+    for (const char *setting : {"simulator.pace=real_time", "episode.decision_period_s=0.02",
+                                "safety.crawler_acceleration=15", "safety.joint_acceleration=15"}) {
+        good = good && settings_set(&s, setting, error);
+    }
+    if (!good || !settings_check(&s, error)) {
         std::fprintf(stderr, "%s\n", error);
         return 2;
     }
