@@ -1,6 +1,7 @@
 #include "session.h"
 
-enum { MISPLACED_PROVE = 3, SLACK = 3 };
+enum { MISPLACED_PROVE = 3 };  /* states */
+static const double slack = 3; /* states that may come sooner than by the clock */
 
 /* splitmix64; 0 stands for no nonce. */
 static int64_t draw_nonce(session_tracker *t) {
@@ -58,7 +59,7 @@ static bool is_silent(const session_tracker *t, double now) {
 
 /* Whether the plant can have come to `seq` by `now`, having been at `from` at `since`. */
 static bool can_be_there(const session_tracker *t, int64_t seq, int64_t from, double since, double now) {
-    return (double)(seq - from) <= (now - since) / t->period + SLACK;
+    return (double)(seq - from) <= (now - since) / t->period + slack;
 }
 
 static session_verdict place(session_tracker *t, int64_t seq, double now, session_verdict verdict) {

@@ -1,8 +1,10 @@
 """Where things are: in a source tree and its build, or where pip and `cmake --install` have put them."""
 
+import itertools
 import os
 import shutil
 import sys
+import time
 from pathlib import Path
 
 from limphome_lab.ending import Ending
@@ -34,6 +36,13 @@ def program(name):
     if found is None:
         raise Ending(f"limphome-{name} is neither in {BUILD}/bin nor in PATH; LIMPHOME_BUILD can name a build")
     return Path(found)
+
+
+def new_run(name):
+    """A folder below runs/ that is not there yet, named after what runs and the time; another may begin this second."""
+    stem = f"{name}-{time.strftime('%Y%m%d-%H%M%S')}"
+    candidates = (RUNS / (stem if n == 1 else f"{stem}-{n}") for n in itertools.count(1))
+    return next(path for path in candidates if not path.exists())
 
 
 def shown(path):

@@ -8,6 +8,7 @@ import json
 import os
 from pathlib import Path
 
+from limphome_lab import files
 from limphome_lab.ending import Ending
 
 
@@ -38,7 +39,7 @@ def register(run, url):
     """Announces the calling process as a pair that is running; returns the file to remove at its end."""
     pid = os.getpid()
     entry = directory() / f"{pid}.json"
-    entry.write_text(json.dumps({"pid": pid, "start": process_start(pid), "run": str(run), "url": url}))
+    files.replace(entry, json.dumps({"pid": pid, "start": process_start(pid), "run": str(run), "url": url}))
     return entry
 
 

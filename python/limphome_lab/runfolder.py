@@ -6,7 +6,6 @@ import re
 import shutil
 import subprocess
 import sys
-import time
 from dataclasses import dataclass, fields
 from pathlib import Path
 
@@ -174,7 +173,7 @@ def create(out, config, robot, assignments, controller_options=(), anew=False):
     ask("simulator", *options)
     if out is None:
         seed = parse_settings(resolved, config)["learning"]["seed"]
-        out = paths.RUNS / f"{Path(config).stem}-seed{seed}-{time.strftime('%Y%m%d-%H%M%S')}"
+        out = paths.new_run(f"{Path(config).stem}-seed{seed}")
     folder = RunFolder(out)
     try:
         _take_empty(folder, out, anew)

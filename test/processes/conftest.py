@@ -1,6 +1,7 @@
 """Runs that the tests share. All of them talk on a loopback of their own."""
 
 import os
+import signal
 import subprocess
 import time
 from pathlib import Path
@@ -35,8 +36,13 @@ def start_script(name, *arguments, **options):
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         start_new_session=True,
-        **options,
+        **{"preexec_fn": heed_hang_up, **options},
     )
+
+
+def heed_hang_up():
+    """As a shell's child does, also where the tests run under nohup."""
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 def train(out, *arguments, check=True):

@@ -37,7 +37,7 @@ def make_folder(args):
         trained = runfolder.existing(args.policy, "policy")
         config, robot, options = trained.config, trained.robot, ["--evaluate", trained.policy]
     settings = [f"learning.episodes={UNTIL_STOPPED}", "simulator.pace=real_time", "link.give_up_s=0", *args.set]
-    out = paths.RUNS / f"launch-{time.strftime('%Y%m%d-%H%M%S')}"
+    out = paths.new_run("launch")
     return runfolder.create(out, args.config or config, args.robot or robot, settings), options
 
 
