@@ -31,7 +31,8 @@ typedef enum command_line_result {
     COMMAND_LINE_BAD   /* an error has been printed: exit 2 */
 } command_line_result;
 
-/* Prepares the standard streams and reads argv into `line`, whose strings point into argv or itself: it is not to be copied. */
+/* Prepares the standard streams and reads argv into `line`, whose strings point into argv or itself: it is not to be
+ * copied. */
 command_line_result command_line_parse(int argc, char **argv, command_line_program program, command_line *line);
 
 #ifdef __cplusplus

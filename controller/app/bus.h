@@ -24,6 +24,9 @@ typedef struct bus_listener {
     void *user;
 } bus_listener;
 
+/* Overruns in a second that make a flood: 5,000 messages. */
+enum { BUS_FLOOD = 40 };
+
 /* Owns the bus from bus_open to bus_close. */
 typedef struct bus {
     udpm lcm;

@@ -60,6 +60,7 @@ static void on_state(void *user, const limphome_robot_state_t *state) {
     const session_label label = {state->session, state->seq, state->reset_sender, state->reset_nonce,
                                  state->lockstep != 0};
     l->heard = now;
+    l->denied = session_is_anothers(&l->session, &label) ? now : l->denied;
     switch (session_judge(&l->session, &label, now)) {
         case SESSION_NEW:
             on_new(l, state, was_asking, now);

@@ -29,6 +29,7 @@ typedef struct plant_link {
 
     /* when something of the kind was heard last [s]; 0: never */
     double heard;   /* from a plant at all */
+    double denied;  /* from a plant that obeys another */
     double invalid; /* that is no state to decide upon */
 } plant_link;
 

@@ -10,6 +10,10 @@
 #include "limphome_episode_t.h"
 #include "recording_event.h"
 
+static bool is_of_learned(const recording_event *e) {
+    return strcmp(e->channel, LIMPHOME_CHANNEL_POLICY) == 0 || strcmp(e->channel, LIMPHOME_CHANNEL_PLANNER) == 0;
+}
+
 /* The episode whose end, or what was learned up to it, the event tells of; -1 for another event. */
 static int32_t episode_told(const recording_event *e) {
     learned policy;
@@ -17,7 +21,7 @@ static int32_t episode_told(const recording_event *e) {
     if (strcmp(e->channel, LIMPHOME_CHANNEL_EPISODE) == 0) {
         return limphome_episode_t_decode(e->data, 0, e->size, &episode) == e->size ? episode.episode : -1;
     }
-    if (strcmp(e->channel, LIMPHOME_CHANNEL_POLICY) == 0 || strcmp(e->channel, LIMPHOME_CHANNEL_PLANNER) == 0) {
+    if (is_of_learned(e)) {
         return learned_decode_policy(e->data, (size_t)e->size, &policy) == MESSAGE_GOOD ? learned_episode(&policy) : -1;
     }
     return -1;
@@ -29,14 +33,15 @@ bool recording_find(const char *path, int32_t episodes, recording_place *end, ch
     if (file == NULL) {
         return files_fail(error, path);
     }
-    bool found = false;
+    bool found = false, told = false;
     recording_place at = {0, 0};
-    while (recording_event_read(file, &e)) {
+    while (!told && recording_event_read(file, &e)) {
         at.bytes += e.bytes;
         at.events = e.number + 1;
         if (episode_told(&e) == episodes) {
             *end = at;
             found = true;
+            told = is_of_learned(&e); /* again by a run that was interrupted afterwards */
         }
     }
     fclose(file);

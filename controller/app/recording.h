@@ -29,8 +29,9 @@ typedef struct recording_place {
 /* Begins a new file; one that is there is lost. */
 bool recording_create(recording *r, const char *path, char error[ERROR_LENGTH]);
 
-/* Where that ends which belongs to the first `episodes` episodes: behind the last message that tells of the end of that
- * episode or of what was learned up to it. False if an event before is not whole, or there is none. */
+/* Where that ends which belongs to the first `episodes` episodes: behind the first message of what was learned up to
+ * there, or behind that of the episode's end where there is none. False if an event before is not whole, or there is
+ * neither. */
 bool recording_find(const char *path, int32_t episodes, recording_place *end, char error[ERROR_LENGTH]);
 
 /* Opens a file to add to what it holds before `end`. */

@@ -44,7 +44,8 @@ static bool read_inputs(run *r, const command_line *line, run_folder_place *plac
     }
     r->hash = hash_of(r);
     r->evaluating = line->evaluate != NULL;
-    if (line->resume && !run_folder_find(line->out, r->hash, place, &r->learned, r->error)) {
+    const int32_t reset_every = r->config.task.episode.reset_every;
+    if (line->resume && !run_folder_find(line->out, r->hash, reset_every, place, &r->learned, r->error)) {
         return false;
     }
     r->resuming = line->resume && place->episodes > 0;
@@ -233,6 +234,8 @@ static const char *cause(session_break broken) {
     switch (broken) {
         case SESSION_FAULTED:
             return "the plant has put the robot back after a fault";
+        case SESSION_TAKEN:
+            return "another controller has taken the plant over";
         case SESSION_ENDED:
             return "the plant has started anew";
         case SESSION_MISPLACED:

@@ -17,7 +17,11 @@ static const char checkpoint_folder[] = "checkpoint", table_name[] = "episodes.c
                   recording_name[] = "messages.lcmlog", policy_name[] = "policy.lcm";
 
 static bool make_folder(const char *path, char error[ERROR_LENGTH]) {
-    return mkdir(path, 0777) == 0 || errno == EEXIST || files_fail(error, path);
+    struct stat there;
+    if (mkdir(path, 0777) == 0 || (errno == EEXIST && stat(path, &there) == 0 && S_ISDIR(there.st_mode))) {
+        return true;
+    }
+    return files_fail(error, path);
 }
 
 static bool exists(const char *path) {
@@ -107,15 +111,21 @@ static bool find_place(const char *folder, int32_t episodes, run_folder_place *p
     return !exists(name) || recording_find(name, episodes, &place->recording, error);
 }
 
-/* A run without a checkpoint begins anew, unless what lies there is no run. */
-static bool find_beginning(const char *folder, run_folder_place *place, char error[ERROR_LENGTH]) {
+/* A run without a checkpoint begins anew, unless what lies there is no run, or has come so far that it had one. */
+static bool find_beginning(const char *folder, int32_t reset_every, run_folder_place *place, char error[ERROR_LENGTH]) {
     char name[FILES_PATH_LENGTH];
+    char none[ERROR_LENGTH];
+    int64_t end;
+    if (files_join(name, folder, table_name, error) && episode_table_find(name, reset_every + 1, &end, none)) {
+        return fail_with(error, "%.200s: has more than %" PRId32 " episodes, but the checkpoints are gone", folder,
+                         reset_every);
+    }
     *place = (run_folder_place){.episodes = 0};
     return (exists(folder) || files_fail(error, folder)) && files_join(name, folder, table_name, error) &&
            (!exists(name) || episode_table_find(name, 0, &place->table, error));
 }
 
-bool run_folder_find(const char *path, int64_t settings_hash, run_folder_place *place, learned *l,
+bool run_folder_find(const char *path, int64_t settings_hash, int32_t reset_every, run_folder_place *place, learned *l,
                      char error[ERROR_LENGTH]) {
     char name[FILES_PATH_LENGTH];
     if (!files_join(name, path, checkpoint_folder, error)) {
@@ -123,7 +133,7 @@ bool run_folder_find(const char *path, int64_t settings_hash, run_folder_place *
     }
     long number = newest_checkpoint(name, LH_LAST_EPISODE, error);
     if (number == 0) {
-        return find_beginning(path, place, error);
+        return find_beginning(path, reset_every, place, error);
     }
     while (number > 0) {
         char why[ERROR_LENGTH] = "";

@@ -38,7 +38,7 @@ bool run_folder_create(run_folder *folder, const char *path, char error[ERROR_LE
 /* Finds the newest checkpoint that is sound and whose episodes table and recording hold; each newer one is told of on
  * stderr. It must be of `settings_hash`. A run that was ended before its first has place->episodes 0 and *l unchanged:
  * it begins anew. Writes nothing. */
-bool run_folder_find(const char *path, int64_t settings_hash, run_folder_place *place, learned *l,
+bool run_folder_find(const char *path, int64_t settings_hash, int32_t reset_every, run_folder_place *place, learned *l,
                      char error[ERROR_LENGTH]);
 
 /* Goes on with an existing folder from a place that was found in it. */

@@ -100,11 +100,21 @@ static session_verdict take_up(session_tracker *t, const session_label *label, d
     return place(t, label->seq, now, SESSION_NEW);
 }
 
+bool session_is_anothers(const session_tracker *t, const session_label *label) {
+    return label->sender != 0 && label->sender != t->sender;
+}
+
 /* Asks for a reset of the session that was heard. */
 static session_verdict ask(session_tracker *t, const session_label *label, double now) {
-    const bool anothers = label->sender != 0 && label->sender != t->sender;
     t->session = label->session;
-    return place(t, label->seq, now, anothers ? SESSION_DENIED : SESSION_RESET);
+    return place(t, label->seq, now, session_is_anothers(t, label) ? SESSION_DENIED : SESSION_RESET);
+}
+
+static session_break cause(const session_tracker *t, const session_label *label) {
+    if (t->over) {
+        return SESSION_FAULTED;
+    }
+    return session_is_anothers(t, label) ? SESSION_TAKEN : SESSION_ENDED;
 }
 
 /* A session that we have not asked for: the plant was restarted, or obeys another. */
@@ -114,7 +124,7 @@ static session_verdict judge_other(session_tracker *t, const session_label *labe
         return SESSION_OTHER;
     }
     if (t->known && !t->asking) {
-        t->broken = t->over ? SESSION_FAULTED : SESSION_ENDED;
+        t->broken = cause(t, label);
     }
     if (!t->asking) {
         begin_asking(t, now);

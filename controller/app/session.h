@@ -32,7 +32,8 @@ typedef struct session_label {
 typedef enum session_break {
     SESSION_UNBROKEN,
     SESSION_FAULTED,  /* the plant has told that it ended by a fault */
-    SESSION_ENDED,    /* the plant is silent in it while another is heard */
+    SESSION_ENDED,    /* the plant is silent in it while another is heard, of nobody */
+    SESSION_TAKEN,    /* likewise, of another controller */
     SESSION_MISPLACED /* the plant is at another state than we are: something else was obeyed */
 } session_break;
 
@@ -64,6 +65,9 @@ void session_init(session_tracker *tracker, int64_t sender, uint64_t seed, doubl
 
 /* What to do about a state heard at `now` [s, monotonic]. */
 session_verdict session_judge(session_tracker *tracker, const session_label *label, double now);
+
+/* Whether a state is of a session that another sender has asked for. */
+bool session_is_anothers(const session_tracker *tracker, const session_label *label);
 
 /* The plant must begin anew: states of the present session are now answered by SESSION_RESET. */
 void session_reset(session_tracker *tracker, double now);

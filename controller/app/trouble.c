@@ -1,5 +1,7 @@
 #include "trouble.h"
 
+#include <math.h>
+
 static const double usual_pause = 1; /* between two looks [s]; a decision takes milliseconds */
 
 static const char *const words[TROUBLE_KINDS] = {
@@ -13,8 +15,9 @@ static const char *const words[TROUBLE_KINDS] = {
 };
 
 void trouble_init(trouble *t, const settings *s, double now) {
-    *t = (trouble){.timeout = s->link.sender_timeout_s,
-                   .give_up = s->link.give_up_s,
+    const double give_up = s->link.give_up_s;
+    *t = (trouble){.timeout = give_up > 0 ? fmin(s->link.sender_timeout_s, give_up) : s->link.sender_timeout_s,
+                   .give_up = give_up,
                    .useful = now,
                    .looked = now,
                    .flooded = now - usual_pause};
@@ -51,7 +54,18 @@ static int8_t cause(const trouble *t, const plant_link *l, double now) {
     if (l->invalid > since) {
         return LIMPHOME_STATUS_T_INVALID_STATES;
     }
-    return l->heard > since ? LIMPHOME_STATUS_T_NOT_OBEYED : LIMPHOME_STATUS_T_PLANT_SILENT;
+    return l->denied > since ? LIMPHOME_STATUS_T_NOT_OBEYED : LIMPHOME_STATUS_T_PLANT_SILENT;
+}
+
+/* What has gathered while we were stopped is no flood: a bus holds less than that many overruns. */
+static void look_for_flood(trouble *t, int64_t overruns, double now) {
+    if (overruns - t->overruns >= BUS_FLOOD) {
+        t->flooded = now;
+    }
+    if (now - t->counted >= 1) {
+        t->overruns = overruns;
+        t->counted = now;
+    }
 }
 
 double trouble_look(trouble *t, const plant_link *l, double now) {
@@ -60,10 +74,7 @@ double trouble_look(trouble *t, const plant_link *l, double now) {
     if (pause > 0) {
         t->useful += pause;
     }
-    if (l->bus.counts.overruns > t->overruns) {
-        t->overruns = l->bus.counts.overruns;
-        t->flooded = now;
-    }
+    look_for_flood(t, l->bus.counts.overruns, now);
     if (now - t->useful >= t->timeout) {
         set_reason(t, cause(t, l, now), now);
     } else if (!rests(t)) {
@@ -87,6 +98,6 @@ int8_t trouble_condition(const trouble *t, int8_t condition) {
 }
 
 bool trouble_bears(const trouble *t, double now, char error[ERROR_LENGTH]) {
-    return t->give_up <= 0 || now - t->useful < t->give_up ||
-           fail_with(error, "given up after %.0f s: %s", t->give_up, words[t->reason]);
+    return t->give_up <= 0 || now - t->useful < t->give_up || words[t->reason] == NULL ||
+           fail_with(error, "given up after %g s: %s", t->give_up, words[t->reason]);
 }

@@ -16,7 +16,8 @@ typedef struct trouble {
     int8_t reason;    /* a constant of status_t */
     double useful;    /* when a state was decided on or answered by rest [s] */
     double looked;    /* when we last looked [s] */
-    int64_t overruns; /* at that time */
+    int64_t overruns; /* when they were counted last */
+    double counted;   /* when that was [s] */
     double flooded;   /* when there was the last one [s] */
     notice notices[TROUBLE_KINDS];
 } trouble;

@@ -13,6 +13,7 @@ namespace {
 constexpr double ramp_time = 0.5;         // from the last obeyed speed to rest [s]
 constexpr int most_faults = 10;           // in a row
 constexpr double real_time_slice = 0.01;  // the clock is followed this finely [s]
+constexpr int flood = 40;                 // overruns in a second that make one: 5,000 messages
 constexpr double at_rest[max_actuators] = {};
 
 const char *words(int8_t reason) {
@@ -234,7 +235,7 @@ void Loop::report_each_second() {
         return;
     }
     report_due_ = now + 1;
-    const bool flooded = link_.counts().overruns > overruns_;
+    const bool flooded = link_.counts().overruns - overruns_ >= flood;
     overruns_ = link_.counts().overruns;
     if (flooded) {
         notice_print(&floods_, now, "more messages come than can be looked at");

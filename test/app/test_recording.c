@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "learned.h"
 #include "limphome_channels.h"
 #include "limphome_episode_t.h"
 #include "recording.h"
@@ -69,6 +70,38 @@ static int count_events(void) {
     lcm_eventlog_destroy(log);
     return events;
 }
+
+static void add_policy(recording *r, int32_t episode) {
+    static unsigned char bytes[LEARNED_LARGEST];
+    learned l;
+    memset(&l, 0, sizeof l);
+    l.kind = LH_Q_LEARNING;
+    limphome_policy_t *policy = &l.as.q_learning.policy;
+    policy->episode = episode;
+    policy->num_actuators = 5;
+    policy->num_controlled = 4;
+    policy->num_units = 50;
+    policy->num_inputs = 10;
+    recording_add(r, LIMPHOME_CHANNEL_POLICY, bytes, learned_encode_policy(&l, bytes, sizeof bytes));
+}
+
+/* It tells of what it has learned by the newest finished episode a second time when it is interrupted in the next. */
+START_TEST(an_interrupted_episode_does_not_belong_to_the_one_before) {
+    recording r;
+    ck_assert(recording_create(&r, path, error));
+    add_episode(&r, 1);
+    add_policy(&r, 1);
+    const recording_place after = recording_end(&r);
+    unsigned char state[] = "a state";
+    recording_add(&r, LIMPHOME_CHANNEL_STATE, state, 7);
+    add_policy(&r, 1);
+    ck_assert(recording_close(&r, error));
+    recording_place end;
+    ck_assert(recording_find(path, 1, &end, error));
+    ck_assert_int_eq(end.bytes, after.bytes);
+    ck_assert_int_eq(end.events, after.events);
+}
+END_TEST
 
 START_TEST(an_episode_is_found_where_the_file_is_whole_up_to_its_end) {
     int64_t ends[EPISODES + 1];
@@ -197,6 +230,7 @@ int main(void) {
     TCase *cases = tcase_create("recording");
     tcase_add_checked_fixture(cases, make_folder, remove_folder);
     tcase_add_test(cases, an_episode_is_found_where_the_file_is_whole_up_to_its_end);
+    tcase_add_test(cases, an_interrupted_episode_does_not_belong_to_the_one_before);
     tcase_add_test(cases, an_event_that_is_damaged_ends_it);
     tcase_add_test(cases, going_on_leaves_no_trace_of_the_tear);
     tcase_add_test(cases, a_running_one_is_cut_back);

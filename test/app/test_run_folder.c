@@ -10,7 +10,7 @@
 #include "run_folder.h"
 #include "suite.h"
 
-enum { SETTINGS = 1234 }; /* hash of those that the runs were made with */
+enum { SETTINGS = 1234, RESET_EVERY = 10 }; /* hash of those that the runs were made with */
 
 static char folder_name[64];
 static char error[ERROR_LENGTH]; /* of the newest failure */
@@ -110,7 +110,8 @@ static void record_episode(run_folder *folder, const limphome_episode_t *e) {
 static bool resume(run_folder *folder, const char *path, int64_t settings_hash, run_folder_place *place, learned *l) {
     memset(folder, 0, sizeof *folder);
     folder->lock = -1;
-    return run_folder_find(path, settings_hash, place, l, error) && run_folder_resume(folder, path, place, error);
+    return run_folder_find(path, settings_hash, RESET_EVERY, place, l, error) &&
+           run_folder_resume(folder, path, place, error);
 }
 
 /* Of episodes.csv and messages.lcmlog alike. */
@@ -225,7 +226,7 @@ START_TEST(a_stray_file_among_the_checkpoints_is_ignored) {
     }
     run_folder_place place;
     learned l;
-    ck_assert(run_folder_find(folder_name, SETTINGS, &place, &l, error));
+    ck_assert(run_folder_find(folder_name, SETTINGS, RESET_EVERY, &place, &l, error));
     ck_assert_int_eq(place.episodes, 20);
 }
 END_TEST
@@ -267,6 +268,22 @@ START_TEST(a_run_that_ended_before_its_first_checkpoint_begins_anew) {
     char path[256];
     file_path(path, "messages.lcmlog");
     ck_assert_int_eq(file_size(path), 0);
+}
+END_TEST
+
+START_TEST(a_run_whose_checkpoints_are_gone_is_left_as_it_is) {
+    write_run(2 * RESET_EVERY);
+    char path[256];
+    for (int32_t i = 1; i <= 2; i++) {
+        snprintf(path, sizeof path, "%s/checkpoint/episode_%06d.lcm", folder_name, i * RESET_EVERY);
+        ck_assert_int_eq(unlink(path), 0);
+    }
+    run_folder folder;
+    run_folder_place place;
+    learned l;
+    ck_assert(!resume(&folder, folder_name, SETTINGS, &place, &l));
+    ck_assert_ptr_nonnull(strstr(error, "the checkpoints are gone"));
+    ck_assert_int_eq(count_lines("episodes.csv"), 1 + 2 * RESET_EVERY);
 }
 END_TEST
 
@@ -405,6 +422,7 @@ int main(void) {
     tcase_add_test(cases, a_run_without_a_recording_is_gone_on_with);
     tcase_add_test(cases, resume_with_other_settings_is_refused_and_loses_nothing);
     tcase_add_test(cases, a_run_that_ended_before_its_first_checkpoint_begins_anew);
+    tcase_add_test(cases, a_run_whose_checkpoints_are_gone_is_left_as_it_is);
     tcase_add_test(cases, what_is_no_table_is_left_as_it_is);
     tcase_add_test(cases, table_and_recording_are_cut_back_to_a_place);
     tcase_add_test(cases, a_second_controller_is_refused_and_told_who_is_there);

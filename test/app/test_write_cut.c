@@ -80,7 +80,8 @@ static bool go_on(const char *path) {
     run_folder_place place;
     learned l;
     error[0] = '\0';
-    if (!run_folder_find(path, SETTINGS, &place, &l, error) || !run_folder_resume(&folder, path, &place, error)) {
+    if (!run_folder_find(path, SETTINGS, CHECKPOINT_EVERY, &place, &l, error) ||
+        !run_folder_resume(&folder, path, &place, error)) {
         return false;
     }
     ck_assert(place.episodes == 0 || learned_episode(&l) == place.episodes);
