@@ -87,6 +87,29 @@ def test_program_that_dies_is_started_again(unbroken, supervised, observe, names
 
 
 @pytest.mark.fault(
+    "a program that dies has done much by then",
+    injected="SIGKILL late in a run; train --supervise",
+    expected="the manifest counts the decisions of all its lives, but for those after the last status before its death",
+)
+def test_manifest_sums_the_lives_of_a_process(tmp_path, observe):
+    folder = RunFolder(tmp_path / "run")
+    options = (*SHORT, *OFTEN, *HASTE)
+    process = start_script("train", "--config", SMOKE, "--out", folder.path, "--supervise", *options)
+    wait_until(process, lambda: len(folder.read_episodes()) >= 70)
+    steps = sum(row.steps for row in folder.read_episodes())
+    assert kill(folder, "controller")
+    assert process.wait(TIME_LIMIT_S) == 0, process.communicate()[1]
+    manifest = json.loads(folder.manifest.read_text())
+    restart = manifest["parts"][0]["restarts"][0]
+    measured = 1 - restart["unmeasured_s"] / manifest["wall_time_s"]
+    observe(
+        f"{manifest['decisions']} decisions, {steps} steps before the kill, {restart['unmeasured_s']} s not measured"
+    )
+    assert 0 < restart["unmeasured_s"] < 3
+    assert manifest["decisions"] >= steps * measured * 0.7
+
+
+@pytest.mark.fault(
     "the controller dies before the first checkpoint",
     injected="SIGKILL; train --supervise",
     expected="it begins anew, and the run ends byte for byte as an unbroken one",

@@ -69,7 +69,7 @@ def evaluate(folder, policy, url):
     part = Part(folder)
     with Pair(folder, url, ["--evaluate", policy]) as pair:
         pair.run(tail, progress)
-    write_manifest(folder, part.measure("finished", progress.simulated_s))
+    write_manifest(folder, part.measure("finished", progress.simulated_s, pair))
     summary = summarise(folder.read_episodes())
     if folder.settings()["task"]["path"].startswith("to "):
         from limphome_lab.show import missions  # needs the message types, which --help does without

@@ -6,6 +6,7 @@ import time
 
 from limphome_lab import paths, registry
 from limphome_lab.ending import Ending
+from limphome_lab.run.manifest import last_status
 from limphome_lab.run.processes import ToldChild
 from limphome_lab.run.watch import Watch
 
@@ -38,7 +39,9 @@ class Pair:
         self.url = url
         self.controller_options = [str(option) for option in controller_options]
         self.watch = Watch(url)
-        self.restarts = []  # {"process", "ended", "after_episode"}, where it is supervised
+        self.restarts = []  # {"process", "ended", "after_episode", "unmeasured_s"}, where it is supervised
+        self._ended = {}  # {process: last status of each life that another has followed}
+        self._began = {}  # {process: when its present life began [s, monotonic]}
 
     def __enter__(self):
         self.entry = registry.register(self.folder.path, self.url)
@@ -52,10 +55,17 @@ class Pair:
         return self
 
     def _start(self, name, *options):
+        self._began[name] = time.monotonic()
         common = ["--config", self.folder.config, "--robot", self.folder.robot, "--lcm-url", self.url]
         child = ToldChild(name, [paths.program(name), *common, *options], self.folder.path / f"{name}.log")
         self.children.append(child)
         return child
+
+    def last_statuses(self, name):
+        """The last status_t that a process has told in each of its lives, as far as the recording has it."""
+        ended = self._ended.get(name, [])
+        last = last_status(self.folder.messages, name, self._began[name]) if name in self._began else None
+        return ended if last is None else [*ended, last]
 
     def __exit__(self, *_):
         # the controller first, so that the simulator's end does not look like a fault to it
@@ -125,7 +135,14 @@ class SupervisedPair(Pair):
         if code == BAD_INPUT or self._fruitless > MOST_RESTARTS:
             raise PairFailed(child)
         how = how_it_ended(code)
-        self.restarts.append({"process": child.name, "ended": how, "after_episode": self._farthest})
+        self.restarts.append(
+            {
+                "process": child.name,
+                "ended": how,
+                "after_episode": self._farthest,
+                "unmeasured_s": round(self._measure(child.name), 3),
+            }
+        )
         print(f"limphome-{child.name} ended early ({how}) and is started again", file=sys.stderr)
         self.children.remove(child)
         if child is self.simulator:
@@ -134,3 +151,11 @@ class SupervisedPair(Pair):
         else:
             options = [option for option in self.controller_options if option != "--resume"]
             self.controller = self._start("controller", "--out", self.folder.path, "--resume", *options)
+
+    def _measure(self, name):
+        """Keeps what a process that has ended told of itself, as the next life cuts the recording back. Returns for how
+        long before it had told nothing [s]."""
+        known = len(self._ended.get(name, []))
+        self._ended[name] = self.last_statuses(name)
+        told = self._ended[name][-1].utime / 1e6 if len(self._ended[name]) > known else self._began[name]
+        return time.monotonic() - told

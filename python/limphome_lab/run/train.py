@@ -111,7 +111,7 @@ def main():
     except OSError as error:
         result, code = "failed", 1
         print(told(error), file=sys.stderr)
-    tell_end(args, folder, part.measure(result, progress.simulated_s, pair.restarts))
+    tell_end(args, folder, part.measure(result, progress.simulated_s, pair))
     if code == 0:
         print(f"done in {clock(part.wall_time_s)}: {paths.shown(folder.path)}", file=sys.stderr)
         if trouble := diagnose.in_a_line(folder):
