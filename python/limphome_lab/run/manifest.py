@@ -140,18 +140,43 @@ COUNTERS = (
 )
 
 
-def begin_manifest(folder, config, programs=PROCESSES):
-    """Notes the name of the experiment, before anything has run."""
-    files.replace(folder.manifest, json.dumps({"config": config, "programs": programs, "parts": []}) + "\n")
+TRAINING, EVALUATION = "training", "evaluation"
+
+
+def begin_manifest(folder, config, programs=PROCESSES, kind=TRAINING):
+    """Notes what kind of run it is and the name of the experiment, before anything has run."""
+    begun = {"kind": kind, "config": config, "programs": programs, "parts": []}
+    files.replace(folder.manifest, json.dumps(begun) + "\n")
 
 
 def read_manifest(folder):
-    """InputError where somebody changed it."""
+    """What is kept of it when a part is added; InputError where somebody changed it."""
     try:
-        begun = json.loads(folder.manifest.read_text())
-        return {key: begun[key] for key in ("config", "programs", "parts")}
+        read = json.loads(folder.manifest.read_text())
+        begun = {key: read[key] for key in ("kind", "config", "programs", "parts")}
+        _check_types(begun)
     except (ValueError, KeyError, TypeError) as error:
         raise InputError(f"{folder.manifest}: is no manifest of a run") from error
+    return begun
+
+
+def _check_types(begun):
+    """TypeError or KeyError where something is not what write_manifest would reckon with."""
+
+    def check(value, kind):
+        if not isinstance(value, kind):
+            raise TypeError(value)
+
+    for key, kind in (("kind", str), ("config", str), ("programs", list), ("parts", list)):
+        check(begun[key], kind)
+    for name in begun["programs"]:
+        check(name, str)
+    for part in begun["parts"]:
+        check(part, dict)
+        measured = ("simulated_time_s", "decisions", *SHARES) if "decisions" in part else ()
+        for key in ("wall_time_s", *measured):
+            check(part[key], (int, float))
+        check(part.get("restarts", []), list)
 
 
 def write_manifest(folder, part):
@@ -160,6 +185,7 @@ def write_manifest(folder, part):
     parts = begun["parts"] + [part]
     episodes = folder.read_episodes()
     manifest = {
+        "kind": begun["kind"],
         "config": begun["config"],
         "programs": begun["programs"],
         "seed": int(folder.settings()["learning"]["seed"]),
