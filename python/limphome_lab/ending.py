@@ -4,6 +4,7 @@ import errno
 import functools
 import io
 import os
+import signal
 import sys
 
 
@@ -54,8 +55,10 @@ def with_exit_code(main):
 
     @functools.wraps(main)
     def main_with_exit_code():
-        _prepare_streams()
         try:
+            # where the script has held Ctrl-C back while Python began and loaded
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+            _prepare_streams()
             code = main()
             sys.stdout.flush()
             return code

@@ -6,6 +6,7 @@ it, a run uses the host's network on a port of its own.
 """
 
 import os
+import signal
 import socket
 import subprocess
 import sys
@@ -83,6 +84,7 @@ def enter(wanted="private"):
         os.environ[ENVIRONMENT] = "private"
         sys.stdout.flush()
         sys.stderr.flush()
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # until with_exit_code of the copy takes it
         os.execvp(prefix[0], [*prefix, sys.executable, *sys.orig_argv[1:]])
     if wanted == "private":
         print("network: namespaces are not permitted here; using the host's network", file=sys.stderr)

@@ -9,7 +9,7 @@ import sys
 from dataclasses import dataclass, fields
 from pathlib import Path
 
-from limphome_lab import files, lock, paths
+from limphome_lab import command, files, lock, paths
 from limphome_lab.ending import InputError
 
 CHECKPOINT = re.compile(r"episode_\d{6,}\.lcm")
@@ -121,6 +121,8 @@ def _check_header(path, header):
 
 def existing(path, *needed):
     """The run folder at `path`, or InputError where one of the `needed` files (attributes' names) is missing."""
+    if not str(path):
+        raise InputError("the name of a run folder is empty")
     folder = RunFolder(path)
     for name in ("config", "robot", *needed):
         file = getattr(folder, name)
@@ -161,13 +163,17 @@ def find_robot(robot):
     return own if Path(robot).name == str(robot) and not Path(robot).exists() and own.is_file() else Path(robot)
 
 
-def create(out, config, robot, assignments, controller_options=(), anew=False):
+def create(out, config, robot, assignments, controller_options=(), anew=False, real_time=False):
     """Makes a run folder with its inputs, config.ini as resolved and robot.urdf, and takes it for this process. `out`
-    None: a new one below runs/. With `anew`, what an earlier run left there is removed.
+    None: a new one below runs/. With `anew`, what an earlier run left there is removed. Without `real_time` there will
+    be no operator, and a plant that waits to be armed is refused.
 
     Both programs read all of them before, with `controller_options`, so that what is bad leaves no folder behind."""
     robot = find_robot(robot)
     resolved = resolve_settings(config, assignments)
+    if not real_time and parse_settings(resolved, config)["simulator"]["pace"] == "real_time":
+        launch = f"{command.called('launch')} --arm"
+        raise InputError(f"simulator.pace = real_time: the plant would wait for ever to be armed; {launch} arms it")
     options = [*setting_options(config, assignments), "--robot", robot, "--check"]
     ask("controller", *options, *controller_options)
     ask("simulator", *options)
@@ -193,15 +199,20 @@ def _write_inputs(folder, config, robot):
         raise
 
 
+def _begun(folder):
+    """Whether there is more than what a script leaves that was killed while it made the folder."""
+    made = {name for file in (folder.config, folder.robot, folder.manifest) for name in (file.name, f"{file.name}.new")}
+    return any(file.name not in made - {folder.manifest.name} for file in folder.others())
+
+
 def _take_empty(folder, out, anew):
     """Makes the folder, if need be, and takes it; what is there, unless it may be removed, is left as it is."""
     taken = f"{out}: exists and is not an empty folder; give another, or go on with it by --resume"
-    if folder.path.exists() and not (folder.path.is_dir() and (anew or not folder.others())):
+    if folder.path.exists() and not (folder.path.is_dir() and (anew or not _begun(folder))):
         raise InputError(taken)
     folder.path.mkdir(parents=True, exist_ok=True)
     folder.take()
-    others = folder.others()
-    if others and not anew:
+    if _begun(folder) and not anew:
         raise InputError(taken)
-    for file in others:
+    for file in folder.others():
         shutil.rmtree(file) if file.is_dir() and not file.is_symlink() else file.unlink()

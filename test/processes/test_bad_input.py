@@ -253,3 +253,23 @@ def test_no_folder_is_left_behind(tmp_path, change, assignments, word, observe):
     result = run_script("train", *arguments, check=False)
     assert_refused(result, out, [word])
     observe(result.stderr.strip().replace(f"{tmp_path}/", ""))
+
+
+@pytest.mark.fault(
+    "a run in real time that nobody can arm",
+    injected="train and evaluate with simulator.pace=real_time",
+    expected="refused at once, naming scripts/launch --arm",
+)
+@pytest.mark.parametrize("name", ["train", "evaluate"])
+def test_real_time_without_an_operator(smoke_run, tmp_path, observe, name):
+    run = {"train": ("--config", SMOKE), "evaluate": (smoke_run.path,)}[name]
+    out = tmp_path / "run"
+    result = run_script(name, *run, "--set", "simulator.pace=real_time", "--out", out, check=False)
+    assert_refused(result, out, ["simulator.pace = real_time", "scripts/launch --arm"])
+    observe("exit code 2")
+
+
+@pytest.mark.parametrize("command", [("train", "--resume"), ("evaluate",), ("plot",), ("diagnose",)], ids=" ".join)
+def test_run_folder_without_a_name(tmp_path, command):
+    result = run_script(*command, "", check=False)
+    assert_refused(result, tmp_path / "run", ["the name of a run folder is empty"])

@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import signal
 import time
 
@@ -51,6 +52,31 @@ def test_ctrl_c(running):
     assert folder.policy.exists() and folder.manifest.exists()
     assert (folder.figures / "fig9_motion.png").exists()
     run_script("plot", folder.path)
+
+
+@pytest.mark.fault(
+    "Ctrl-C while the script is still loading",
+    injected="SIGINT 0.1 to 0.6 s after the start of train, evaluate and launch",
+    expected="exit code 130, nothing told but a line",
+)
+@pytest.mark.parametrize("name", ["train", "evaluate", "launch"])
+def test_ctrl_c_at_the_start(smoke_run, tmp_path, observe, name):
+    arguments = {
+        "train": ("--config", SMOKE, "--out", tmp_path / "run", "--quiet", "--no-figures"),
+        "evaluate": (smoke_run.path, "--out", tmp_path / "run"),
+        "launch": ("--help-is-not-asked-for",),  # refused once all is loaded, so that no folder is left below runs/
+    }[name]
+    codes = []
+    for delay_s in (0.1, 0.2, 0.3, 0.4, 0.6):
+        process = start_script(name, *arguments)
+        time.sleep(delay_s)
+        os.killpg(process.pid, signal.SIGINT)
+        _, errors = process.communicate(timeout=TIME_LIMIT_S)
+        assert "Traceback" not in errors, f"after {delay_s} s"
+        codes.append(process.returncode if process.returncode >= 0 else 128 - process.returncode)  # as a shell
+        shutil.rmtree(tmp_path / "run", ignore_errors=True)
+    assert set(codes) <= ({130, 2} if name == "launch" else {130})
+    observe(f"exit codes {sorted(set(codes))}, no traceback")
 
 
 def test_script_that_is_killed_takes_the_programs_along(running):

@@ -9,7 +9,7 @@ import subprocess
 
 import pytest
 
-from conftest import SMOKE, TIME_LIMIT_S, processes_that_mention, run_script, start_script, wait_until
+from conftest import SMOKE, TIME_LIMIT_S, processes_that_mention, run_script, start_script, train, wait_until
 from limphome_lab import paths
 from limphome_lab.channels import EPISODE
 from limphome_lab.messages import recorded
@@ -256,3 +256,42 @@ def test_recording_is_bounded(smoke_run, tmp_path, observe):
     run_script("train", "--resume", folder.path, "--quiet", "--no-figures")
     expect_whole(folder, smoke_run)
     observe(f"{after / 1e6:.1f} MB instead of {before / 1e6:.1f} MB")
+
+
+@pytest.mark.fault("--resume of an evaluation", injected="RUN/evaluation", expected="refused, and left as it is")
+def test_evaluation_is_not_trained_over(smoke_run, observe):
+    run_script("evaluate", smoke_run.path, "--episodes", 1)
+    folder = RunFolder(smoke_run.path / "evaluation")
+    before = folder.episodes.read_bytes()
+    result = run_script("train", "--resume", folder.path, check=False)
+    expect_refused(result, "is an evaluation")
+    assert folder.episodes.read_bytes() == before
+    observe("exit code 2")
+
+
+@pytest.mark.fault(
+    "a manifest whose values are of wrong types",
+    injected="an object where a list belongs, a part without its times, a text where a number belongs",
+    expected="refused before anything runs",
+)
+@pytest.mark.parametrize("parts", [{}, [{}], [7], [{"wall_time_s": "1"}]], ids=json.dumps)
+def test_manifest_of_wrong_types(run_copy, observe, parts):
+    run_copy.manifest.write_text(json.dumps({**json.loads(run_copy.manifest.read_text()), "parts": parts}))
+    expect_refused(run_script("train", "--resume", run_copy.path, check=False), "is no manifest of a run")
+    observe("exit code 2")
+
+
+@pytest.mark.fault(
+    "a script is killed while it makes the run folder",
+    injected="a folder with nothing but settings and robot",
+    expected="--out takes it",
+)
+def test_folder_half_made_is_taken(run_copy, tmp_path, observe):
+    out = RunFolder(tmp_path / "half")
+    out.path.mkdir()
+    for file in (run_copy.config, run_copy.robot):
+        shutil.copy(file, out.path)
+    (out.path / "manifest.json.new").touch()
+    train(out.path, "--episodes", 1, "--no-figures")
+    assert len(out.read_episodes()) == 1
+    observe("trained there")

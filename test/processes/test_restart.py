@@ -9,9 +9,10 @@ import time
 
 import pytest
 
-from conftest import SMOKE, TIME_LIMIT_S, processes_that_mention, start_script, train, wait_until
+from conftest import SMOKE, TIME_LIMIT_S, processes_that_mention, run_script, start_script, train, wait_until
 from limphome_lab.channels import EPISODE
 from limphome_lab.messages import recorded
+from limphome_lab.run.pair import how_it_ended
 from limphome_lab.runfolder import RunFolder
 
 KILLS = int(os.environ.get("LIMPHOME_KILLS", "20"))
@@ -87,6 +88,29 @@ def test_program_that_dies_is_started_again(unbroken, supervised, observe, names
 
 
 @pytest.mark.fault(
+    "a program that dies has done much by then",
+    injected="SIGKILL late in a run; train --supervise",
+    expected="the manifest counts the decisions of all its lives, but for those after the last status before its death",
+)
+def test_manifest_sums_the_lives_of_a_process(tmp_path, observe):
+    folder = RunFolder(tmp_path / "run")
+    options = (*SHORT, *OFTEN, *HASTE)
+    process = start_script("train", "--config", SMOKE, "--out", folder.path, "--supervise", *options)
+    wait_until(process, lambda: len(folder.read_episodes()) >= 70)
+    steps = sum(row.steps for row in folder.read_episodes())
+    assert kill(folder, "controller")
+    assert process.wait(TIME_LIMIT_S) == 0, process.communicate()[1]
+    manifest = json.loads(folder.manifest.read_text())
+    restart = manifest["parts"][0]["restarts"][0]
+    measured = 1 - restart["unmeasured_s"] / manifest["wall_time_s"]
+    observe(
+        f"{manifest['decisions']} decisions, {steps} steps before the kill, {restart['unmeasured_s']} s not measured"
+    )
+    assert 0 < restart["unmeasured_s"] < 3
+    assert manifest["decisions"] >= steps * measured * 0.7
+
+
+@pytest.mark.fault(
     "the controller dies before the first checkpoint",
     injected="SIGKILL; train --supervise",
     expected="it begins anew, and the run ends byte for byte as an unbroken one",
@@ -97,6 +121,12 @@ def test_controller_that_dies_before_the_first_checkpoint(unbroken, supervised, 
     assert kill(folder, "controller")
     assert len(expect_unbroken(process, folder, unbroken)) == 1
     observe("same table and policy")
+
+
+def test_signals_without_a_name_are_told_by_number():
+    assert how_it_ended(-signal.SIGKILL) == "signal SIGKILL"
+    assert how_it_ended(-40) == "signal 40"
+    assert how_it_ended(3) == "exit code 3"
 
 
 @pytest.mark.fault(
@@ -155,6 +185,24 @@ def test_supervision_gives_up(supervised, observe):
 
 
 @pytest.mark.fault(
+    "the plant hangs until the controller gives up",
+    injected="SIGSTOP of the simulator, link.give_up_s=1; train --supervise",
+    expected="the run ends at once, without a restart, and names the process that is stuck",
+)
+def test_controller_that_gives_up_is_not_started_again(tmp_path, observe):
+    folder = RunFolder(tmp_path / "run")
+    options = (*SHORT, *HASTE, "--set", "link.give_up_s=1", "--supervise")
+    process = start_script("train", "--config", SMOKE, "--out", folder.path, *options)
+    wait_until(process, lambda: len(folder.read_episodes()) >= 2)
+    os.kill(program_of(folder, "simulator"), signal.SIGSTOP)
+    errors = process.communicate(timeout=TIME_LIMIT_S)[1]
+    assert process.returncode == 1
+    assert "is started again" not in errors and "limphome-controller ended early (exit code 3)" in errors
+    assert "limphome-simulator is stopped by a signal" in errors
+    observe("exit code 1, no restart, simulator named")
+
+
+@pytest.mark.fault(
     "Ctrl-Z and fg",
     injected="SIGTSTP, then SIGCONT, to the script",
     expected="both programs stop and go on with it; the run ends as an unbroken one",
@@ -172,6 +220,29 @@ def test_ctrl_z_stops_the_programs_too(unbroken, tmp_path, observe):
     os.killpg(process.pid, signal.SIGCONT)
     assert expect_unbroken(process, folder, unbroken) == []
     observe("stopped at once, same table and policy")
+
+
+@pytest.mark.fault(
+    "a script is killed while it is stopped",
+    injected="Ctrl-Z, then SIGKILL of the script",
+    expected="both programs end; --resume goes on",
+)
+def test_programs_of_a_script_that_is_killed_while_stopped(tmp_path, observe):
+    folder = RunFolder(tmp_path / "run")
+    process = start_script("train", "--config", SMOKE, "--out", folder.path, *SHORT)
+    wait_until(process, lambda: len(folder.read_episodes()) >= 13)
+    programs = [program_of(folder, name) for name in ("simulator", "controller")]
+    os.killpg(process.pid, signal.SIGTSTP)
+    wait_until(process, lambda: [state_of(pid) for pid in [process.pid, *programs]] == ["T"] * 3)
+    process.kill()
+    process.communicate()
+    deadline = time.monotonic() + 10
+    while processes_that_mention(folder.path):
+        assert time.monotonic() < deadline, "programs stayed behind"
+        time.sleep(0.02)
+    run_script("train", "--resume", folder.path, "--episodes", 20, "--no-figures", "--quiet")
+    assert len(folder.read_episodes()) == 20
+    observe("both gone, 20 episodes after --resume")
 
 
 def state_of(pid):

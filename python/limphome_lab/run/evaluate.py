@@ -6,7 +6,7 @@ import sys
 from limphome_lab import command, files, network, runfolder
 from limphome_lab.ending import with_exit_code
 from limphome_lab.run.average import average_policy
-from limphome_lab.run.manifest import Part, begin_manifest, write_manifest
+from limphome_lab.run.manifest import EVALUATION, Part, begin_manifest, write_manifest
 from limphome_lab.run.pair import Pair
 from limphome_lab.run.processes import raise_on_signals
 from limphome_lab.sealed import seal
@@ -65,11 +65,11 @@ def evaluate(folder, policy, url):
     episodes = int(folder.settings()["learning"]["episodes"])
     tail = runfolder.EpisodeTail(folder.episodes)
     progress = Progress(episodes, quiet=not sys.stderr.isatty())
-    begin_manifest(folder, "evaluation")
+    begin_manifest(folder, "evaluation", kind=EVALUATION)
     part = Part(folder)
     with Pair(folder, url, ["--evaluate", policy]) as pair:
         pair.run(tail, progress)
-    write_manifest(folder, part.measure("finished", progress.simulated_s))
+    write_manifest(folder, part.measure("finished", progress.simulated_s, pair))
     summary = summarise(folder.read_episodes())
     if folder.settings()["task"]["path"].startswith("to "):
         from limphome_lab.show import missions  # needs the message types, which --help does without

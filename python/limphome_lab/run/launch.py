@@ -38,7 +38,7 @@ def make_folder(args):
         config, robot, options = trained.config, trained.robot, ["--evaluate", trained.policy]
     settings = [f"learning.episodes={UNTIL_STOPPED}", "simulator.pace=real_time", "link.give_up_s=0", *args.set]
     out = paths.new_run("launch")
-    return runfolder.create(out, args.config or config, args.robot or robot, settings), options
+    return runfolder.create(out, args.config or config, args.robot or robot, settings, real_time=True), options
 
 
 def show(episode):

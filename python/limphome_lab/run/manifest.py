@@ -27,9 +27,9 @@ class Part:
         self.started = time.strftime("%Y-%m-%dT%H:%M:%S%z")
         self._began = time.monotonic()
 
-    def measure(self, result, simulated_s, restarts=()):
+    def measure(self, result, simulated_s, pair=None):
         """Call when both processes have ended. `result`: finished, interrupted or failed; `simulated_s`: duration of
-        all episodes done; `restarts`: of a pair that was supervised."""
+        all episodes done; `pair`: the two, where there are two."""
         self.wall_time_s = time.monotonic() - self._began
         part = {
             "started": self.started,
@@ -38,23 +38,26 @@ class Part:
             "wall_time_s": round(self.wall_time_s, 3),
             "simulated_time_s": simulated_s,
         }
-        if restarts:
-            part["restarts"] = list(restarts)
-        statuses = last_statuses(self.folder.messages, self._began)
-        return part | measures(*statuses) if len(statuses) == 2 else part
+        if pair is None:
+            return part
+        if pair.restarts:
+            part["restarts"] = pair.restarts
+        lives = [pair.last_statuses(name) for name in PROCESSES]
+        return part | measures(*lives) if all(lives) else part
 
 
-def last_statuses(recording, since):
-    """The last status_t of plant and controller in a recording, where they have told one `since` [s, monotonic]."""
+def last_status(recording, name, since):
+    """The last status_t of a process in a recording, where it has told one `since` [s, monotonic]; else None."""
     from limphome_lab.messages import STATUS, recorded, status_t  # lcm is there once all is set up, and --help before
     from limphome_lab.recording import TornRecording
 
-    last = {}
+    process = {"simulator": status_t.PLANT, "controller": status_t.CONTROLLER}[name]
+    last = None
     with suppress(TornRecording, FileNotFoundError):  # what is before the tear is sound; recording_as_it_is tells of it
         for _, status in recorded(recording, STATUS):
-            if status.utime >= since * 1e6:
-                last[status.process] = status
-    return [last[process] for process in (status_t.PLANT, status_t.CONTROLLER) if process in last]
+            if status.process == process and status.utime >= since * 1e6:
+                last = status
+    return last
 
 
 def recording_as_it_is(recording):
@@ -70,20 +73,22 @@ def recording_as_it_is(recording):
 
 
 def measures(plant, controller):
-    """What the two processes say of their own work."""
+    """What the two processes say of their own work, by the last status of each of their lives: one that was started
+    again counts from nothing."""
     simulator_share, controller_share = (
-        (each.wall_time - each.wait_time) / each.wall_time for each in (plant, controller)
+        1 - sum(each.wait_time for each in lives) / sum(each.wall_time for each in lives)
+        for lives in (plant, controller)
     )
     return {
-        "decisions": controller.decisions,
+        "decisions": sum(each.decisions for each in controller),
         "simulator_share": simulator_share,
         "controller_share": controller_share,
         # in lockstep one of the two works while the other waits; where both wait, a message is under way
         # the rest; nothing where the two work side by side more than both wait
         "link_share": max(0.0, 1.0 - simulator_share - controller_share),
         "counters": {
-            name: {counter: getattr(status, counter) for counter in COUNTERS}
-            for name, status in zip(PROCESSES, (plant, controller), strict=True)
+            name: {counter: sum(getattr(each, counter) for each in lives) for counter in COUNTERS}
+            for name, lives in zip(PROCESSES, (plant, controller), strict=True)
         },
     }
 
@@ -135,18 +140,43 @@ COUNTERS = (
 )
 
 
-def begin_manifest(folder, config, programs=PROCESSES):
-    """Notes the name of the experiment, before anything has run."""
-    files.replace(folder.manifest, json.dumps({"config": config, "programs": programs, "parts": []}) + "\n")
+TRAINING, EVALUATION = "training", "evaluation"
+
+
+def begin_manifest(folder, config, programs=PROCESSES, kind=TRAINING):
+    """Notes what kind of run it is and the name of the experiment, before anything has run."""
+    begun = {"kind": kind, "config": config, "programs": programs, "parts": []}
+    files.replace(folder.manifest, json.dumps(begun) + "\n")
 
 
 def read_manifest(folder):
-    """InputError where somebody changed it."""
+    """What is kept of it when a part is added; InputError where somebody changed it."""
     try:
-        begun = json.loads(folder.manifest.read_text())
-        return {key: begun[key] for key in ("config", "programs", "parts")}
+        read = json.loads(folder.manifest.read_text())
+        begun = {key: read[key] for key in ("kind", "config", "programs", "parts")}
+        _check_types(begun)
     except (ValueError, KeyError, TypeError) as error:
         raise InputError(f"{folder.manifest}: is no manifest of a run") from error
+    return begun
+
+
+def _check_types(begun):
+    """TypeError or KeyError where something is not what write_manifest would reckon with."""
+
+    def check(value, kind):
+        if not isinstance(value, kind):
+            raise TypeError(value)
+
+    for key, kind in (("kind", str), ("config", str), ("programs", list), ("parts", list)):
+        check(begun[key], kind)
+    for name in begun["programs"]:
+        check(name, str)
+    for part in begun["parts"]:
+        check(part, dict)
+        measured = ("simulated_time_s", "decisions", *SHARES) if "decisions" in part else ()
+        for key in ("wall_time_s", *measured):
+            check(part[key], (int, float))
+        check(part.get("restarts", []), list)
 
 
 def write_manifest(folder, part):
@@ -155,6 +185,7 @@ def write_manifest(folder, part):
     parts = begun["parts"] + [part]
     episodes = folder.read_episodes()
     manifest = {
+        "kind": begun["kind"],
         "config": begun["config"],
         "programs": begun["programs"],
         "seed": int(folder.settings()["learning"]["seed"]),

@@ -6,28 +6,37 @@ import time
 
 from limphome_lab import paths, registry
 from limphome_lab.ending import Ending
+from limphome_lab.run.manifest import last_status
 from limphome_lab.run.processes import ToldChild
-from limphome_lab.run.watch import Watch
+from limphome_lab.run.watch import Watch, process_trouble
 
 POLL_S = 0.05
 BAD_INPUT = 2  # exit code of both programs, as of the scripts, for what the user gave
+GAVE_UP = 3  # exit code of the controller that has had nothing to decide on for link.give_up_s
 MOST_RESTARTS = 10  # without an episode more than there have been
 
 
 class PairFailed(Ending):
     """One of the two ended when it should not have; the text tells which, and shows its last words."""
 
-    def __init__(self, child):
+    def __init__(self, child, *others):
         code = child.exit_code()
+        stuck = [(other.name, process_trouble(other.process.pid)) for other in others]
         super().__init__(
-            f"limphome-{child.name} ended early ({how_it_ended(code)}); the end of {paths.shown(child.log)}:\n"
+            "".join(f"limphome-{name} {trouble}\n" for name, trouble in stuck if trouble)
+            + f"limphome-{child.name} ended early ({how_it_ended(code)}); the end of {paths.shown(child.log)}:\n"
             f"{child.log_tail()}"
         )
         self.exit_code = BAD_INPUT if code == BAD_INPUT else 1
 
 
 def how_it_ended(code):
-    return f"exit code {code}" if code >= 0 else f"signal {signal.Signals(-code).name}"
+    if code >= 0:
+        return f"exit code {code}"
+    try:
+        return f"signal {signal.Signals(-code).name}"
+    except ValueError:  # most of the real-time signals have no name
+        return f"signal {-code}"
 
 
 class Pair:
@@ -38,7 +47,9 @@ class Pair:
         self.url = url
         self.controller_options = [str(option) for option in controller_options]
         self.watch = Watch(url)
-        self.restarts = []  # {"process", "ended", "after_episode"}, where it is supervised
+        self.restarts = []  # {"process", "ended", "after_episode", "unmeasured_s"}, where it is supervised
+        self._ended = {}  # {process: last status of each life that another has followed}
+        self._began = {}  # {process: when its present life began [s, monotonic]}
 
     def __enter__(self):
         self.entry = registry.register(self.folder.path, self.url)
@@ -52,10 +63,17 @@ class Pair:
         return self
 
     def _start(self, name, *options):
+        self._began[name] = time.monotonic()
         common = ["--config", self.folder.config, "--robot", self.folder.robot, "--lcm-url", self.url]
         child = ToldChild(name, [paths.program(name), *common, *options], self.folder.path / f"{name}.log")
         self.children.append(child)
         return child
+
+    def last_statuses(self, name):
+        """The last status_t that a process has told in each of its lives, as far as the recording has it."""
+        ended = self._ended.get(name, [])
+        last = last_status(self.folder.messages, name, self._began[name]) if name in self._began else None
+        return ended if last is None else [*ended, last]
 
     def __exit__(self, *_):
         # the controller first, so that the simulator's end does not look like a fault to it
@@ -74,7 +92,7 @@ class Pair:
         return False
 
     def failed(self, child):
-        raise PairFailed(child)
+        raise PairFailed(child, *(other for other in self.children if other is not child and other.exit_code() is None))
 
     def run(self, tail, progress):
         """Waits for all episodes, showing those that `tail` reads on `progress`; then ends the simulator."""
@@ -104,7 +122,8 @@ class Pair:
 class SupervisedPair(Pair):
     """A pair in which a process that has died is started again. A new controller goes on from the newest checkpoint;
     with a new plant the controller rolls back by itself to where the plant was last reset. It gives up where one dies
-    again and again without an episode more, and where what the user gave is bad."""
+    again and again without an episode more, where the controller itself has given up, and where what the user gave is
+    bad: a new one would fare no better."""
 
     def __enter__(self):
         self._farthest = self._fruitless = 0
@@ -122,10 +141,17 @@ class SupervisedPair(Pair):
     def failed(self, child):
         code = child.exit_code()
         self._fruitless += 1
-        if code == BAD_INPUT or self._fruitless > MOST_RESTARTS:
-            raise PairFailed(child)
+        if code in (BAD_INPUT, GAVE_UP) or self._fruitless > MOST_RESTARTS:
+            super().failed(child)
         how = how_it_ended(code)
-        self.restarts.append({"process": child.name, "ended": how, "after_episode": self._farthest})
+        self.restarts.append(
+            {
+                "process": child.name,
+                "ended": how,
+                "after_episode": self._farthest,
+                "unmeasured_s": round(self._measure(child.name), 3),
+            }
+        )
         print(f"limphome-{child.name} ended early ({how}) and is started again", file=sys.stderr)
         self.children.remove(child)
         if child is self.simulator:
@@ -134,3 +160,11 @@ class SupervisedPair(Pair):
         else:
             options = [option for option in self.controller_options if option != "--resume"]
             self.controller = self._start("controller", "--out", self.folder.path, "--resume", *options)
+
+    def _measure(self, name):
+        """Keeps what a process that has ended told of itself, as the next life cuts the recording back. Returns for how
+        long before it had told nothing [s]."""
+        known = len(self._ended.get(name, []))
+        self._ended[name] = self.last_statuses(name)
+        told = self._ended[name][-1].utime / 1e6 if len(self._ended[name]) > known else self._began[name]
+        return time.monotonic() - told

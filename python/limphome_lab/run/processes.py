@@ -129,7 +129,8 @@ def _last_lines(text):
 
 
 def _prepare():
-    """In the child, before the program: die with the parent, and take no inherited 'ignore' for signals."""
-    _libc.prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+    """In the child, before the program: die with the parent, and take no inherited 'ignore' for signals. SIGKILL, as
+    one that is stopped heeds no other; the run folder stays whole under it."""
+    _libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
     for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(each, signal.SIG_DFL)

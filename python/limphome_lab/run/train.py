@@ -5,7 +5,14 @@ from pathlib import Path
 
 from limphome_lab import command, files, network, paths, runfolder
 from limphome_lab.ending import Ending, told, with_exit_code
-from limphome_lab.run.manifest import Part, begin_manifest, read_manifest, recording_as_it_is, write_manifest
+from limphome_lab.run.manifest import (
+    EVALUATION,
+    Part,
+    begin_manifest,
+    read_manifest,
+    recording_as_it_is,
+    write_manifest,
+)
 from limphome_lab.run.pair import Pair, SupervisedPair
 from limphome_lab.run.processes import Interrupted, raise_on_signals
 from limphome_lab.show import diagnose
@@ -37,7 +44,7 @@ def parse_arguments():
     parser.add_argument("--no-figures", dest="figures", action="store_false", help="draw none; plot does it later")
     parser.add_argument("--quiet", action="store_true", help="no progress")
     args = parser.parse_args()
-    if args.resume and (args.config or args.robot or args.out or args.set or args.seed is not None):
+    if args.resume is not None and (args.config or args.robot or args.out or args.set or args.seed is not None):
         parser.error("--resume takes all from the run folder; only --episodes can be changed")
     return args
 
@@ -58,7 +65,8 @@ def resumed_folder(args):
     """(folder, episode after which it is gone on with)"""
     folder = runfolder.existing(args.resume, "manifest")
     folder.take()
-    read_manifest(folder)
+    if read_manifest(folder)["kind"] == EVALUATION:
+        raise runfolder.InputError(f"{args.resume}: is an evaluation, not a training that could be gone on with")
     settings = [] if args.episodes is None else [f"learning.episodes={args.episodes}"]
     done = resumes_after(folder, settings)
     if args.episodes is not None:
@@ -97,11 +105,11 @@ def main():
     args = parse_arguments()
     url = network.enter(args.network)
     raise_on_signals()
-    folder, done = resumed_folder(args) if args.resume else (new_folder(args), 0)
+    folder, done = resumed_folder(args) if args.resume is not None else (new_folder(args), 0)
     part = Part(folder)
     print(f"training in {paths.shown(folder.path)}", file=sys.stderr)
     progress = Progress(int(folder.settings()["learning"]["episodes"]), done, quiet=args.quiet)
-    pair = (SupervisedPair if args.supervise else Pair)(folder, url, ["--resume"] if args.resume else [])
+    pair = (SupervisedPair if args.supervise else Pair)(folder, url, ["--resume"] if args.resume is not None else [])
     result, code = "finished", 0
     try:
         train(pair, folder, progress)
@@ -111,7 +119,7 @@ def main():
     except OSError as error:
         result, code = "failed", 1
         print(told(error), file=sys.stderr)
-    tell_end(args, folder, part.measure(result, progress.simulated_s, pair.restarts))
+    tell_end(args, folder, part.measure(result, progress.simulated_s, pair))
     if code == 0:
         print(f"done in {clock(part.wall_time_s)}: {paths.shown(folder.path)}", file=sys.stderr)
         if trouble := diagnose.in_a_line(folder):
