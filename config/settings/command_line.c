@@ -115,6 +115,14 @@ static command_line_result check(const command_line *line) {
     return COMMAND_LINE_RUN;
 }
 
+/* Finds the robot and reads the settings that the options name. */
+static command_line_result settle(command_line *line, const char *config, const char *robot, char *const *assignments,
+                                  int count) {
+    line->robot = robot == NULL ? config_path_robot(line->own_robot) : config_path_find(robot, line->own_robot);
+    const command_line_result resolved = resolve(&line->settings, config, assignments, count);
+    return resolved == COMMAND_LINE_RUN ? check(line) : resolved;
+}
+
 command_line_result command_line_parse(int argc, char **argv, command_line_program program, command_line *line) {
     struct option options[sizeof controller_options / sizeof controller_options[0]];
     memcpy(options, controller_options, sizeof options);
@@ -179,13 +187,10 @@ command_line_result command_line_parse(int argc, char **argv, command_line_progr
         fprintf(stderr, "%s: not an option; try %s --help\n", argv[optind], program_name(program));
         return COMMAND_LINE_BAD;
     }
-    line->robot = robot == NULL ? config_path_robot(line->own_robot) : config_path_find(robot, line->own_robot);
-    if (resolve(&line->settings, config, assignments, count) != COMMAND_LINE_RUN || check(line) != COMMAND_LINE_RUN) {
-        return COMMAND_LINE_BAD;
-    }
-    if (print_settings) {
+    const command_line_result settled = settle(line, config, robot, assignments, count);
+    if (settled == COMMAND_LINE_RUN && print_settings) {
         settings_write(&line->settings, stdout);
         return end_of_print();
     }
-    return COMMAND_LINE_RUN;
+    return settled;
 }

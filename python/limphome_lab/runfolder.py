@@ -171,7 +171,10 @@ def create(out, config, robot, assignments, controller_options=(), anew=False, r
     Both programs read all of them before, with `controller_options`, so that what is bad leaves no folder behind."""
     robot = find_robot(robot)
     resolved = resolve_settings(config, assignments)
-    if not real_time and parse_settings(resolved, config)["simulator"]["pace"] == "real_time":
+    pace = parse_settings(resolved, config)["simulator"]["pace"]
+    if real_time and pace != "real_time":
+        raise InputError(f"simulator.pace = {pace}: this is for real time only")
+    if not real_time and pace == "real_time":
         launch = f"{command.called('launch')} --arm"
         raise InputError(f"simulator.pace = real_time: the plant would wait for ever to be armed; {launch} arms it")
     options = [*setting_options(config, assignments), "--robot", robot, "--check"]

@@ -76,12 +76,12 @@ class Histogram:
             self.worst = max(self.worst, latency)
 
     def quantile(self, share):
-        """Upper edge [s] of the bin in which it lies; none counted: NaN."""
+        """Upper edge [s] of the bin in which it lies, but not above the worst; none counted: NaN."""
         left = share * self.bins.total()
         for number in sorted(self.bins):
             left -= self.bins[number]
             if left <= 0:
-                return (number + 1) * BIN_US * 1e-6
+                return min((number + 1) * BIN_US * 1e-6, self.worst)
         return float("nan")
 
     def coarse(self):
