@@ -1,9 +1,11 @@
 """A plant in real time moves for nobody until a person has armed it, and only for as long as the person keeps it up."""
 
+import fcntl
 import os
 import pty
 import signal
 import subprocess
+import sys
 import termios
 import time
 from pathlib import Path
@@ -338,3 +340,54 @@ def test_launch_arms_by_a_key(launched, observe):
     os.close(master)
     os.close(terminal)
     assert "space or enter" in errors
+
+
+# a shell with job control, as far as it matters: its job is in the background until SIGUSR1
+SHELL = """
+import os, signal, subprocess, sys
+job = subprocess.Popen(sys.argv[1:], process_group=0)
+signal.signal(signal.SIGUSR1, lambda *_: os.tcsetpgrp(0, job.pid))
+sys.exit(job.wait() % 256)
+"""
+
+
+@pytest.mark.fault(
+    "a launch in the background",
+    injected="scripts/launch & at a terminal, later fg",
+    expected="it runs on and leaves the terminal alone; in the foreground a key arms the robot",
+)
+def test_launch_in_the_background(tmp_path, monkeypatch, observe):
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    master, terminal = pty.openpty()
+    before = termios.tcgetattr(terminal)
+    shell = subprocess.Popen(
+        [sys.executable, "-c", SHELL, ROOT / "scripts" / "launch", *settings(*FAST)],
+        stdin=terminal,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),
+    )
+    wait_until(shell, registry.running)
+    pair = registry.running()[0]
+    folder = RunFolder(pair["run"])
+    try:
+        wait_until(shell, lambda: log_of(folder, "not armed: nobody"))
+        time.sleep(1)
+        assert "State:\tT" not in Path(f"/proc/{pair['pid']}/status").read_text()
+        assert termios.tcgetattr(terminal) == before
+        shell.send_signal(signal.SIGUSR1)
+        wait_until(shell, lambda: termios.tcgetattr(terminal) != before)
+        time.sleep(1.1)
+        os.write(master, b" ")
+        wait_until(shell, lambda: log_of(folder, "\narmed"))
+    finally:
+        os.kill(pair["pid"], signal.SIGCONT)
+        os.kill(pair["pid"], signal.SIGINT)
+        errors = shell.communicate(timeout=TIME_LIMIT_S)[1]
+    assert shell.returncode == 130, errors
+    assert termios.tcgetattr(terminal) == before
+    os.close(master)
+    os.close(terminal)
+    observe("ran in the background, armed by a key in the foreground, exit code 130")

@@ -7,6 +7,7 @@ is armed again by a person alone, never by this program of itself.
 import contextlib
 import os
 import select
+import signal
 import sys
 import termios
 import time
@@ -20,6 +21,7 @@ from limphome_lab.channels import ARM, STATE, STATUS
 QUEUE = 500  # states that wait to be looked at; only the newest one counts
 FAREWELLS = 3  # a message may be lost
 KEYS = " \r\n"
+LFLAG = 3  # index in what tcgetattr gives
 
 REASONS = {
     status_t.NOT_YET_ARMED: "nobody has armed it yet",
@@ -98,25 +100,44 @@ class Operator:
 
 
 class Keys:
-    """Single keys from the terminal while it is a context; none where stdin is no terminal."""
+    """Single keys from the terminal while it is a context, and while this process is in the foreground there; none
+    where stdin is no terminal."""
 
     def __enter__(self):
         self.terminal = sys.stdin.fileno() if sys.stdin is not None and sys.stdin.isatty() else None
-        if self.terminal is not None:
-            self.before = termios.tcgetattr(self.terminal)
-            tty.setcbreak(self.terminal)
+        self.before = None
+        # a process that has gone to the background while it sets the terminal is not to be stopped for it
+        self.on_ttou = signal.signal(signal.SIGTTOU, signal.SIG_IGN)
+        self._by_keys()
         return self
 
     def __exit__(self, *_):
-        if self.terminal is not None:
+        if self.before is not None and self._in_foreground():
             termios.tcsetattr(self.terminal, termios.TCSADRAIN, self.before)
+        signal.signal(signal.SIGTTOU, self.on_ttou)
 
     def pressed(self):
         """How often space or enter was pressed since the last call."""
         count = 0
-        while self.terminal is not None and select.select([self.terminal], [], [], 0)[0]:
+        while self._by_keys() and select.select([self.terminal], [], [], 0)[0]:
             typed = os.read(self.terminal, 64).decode(errors="replace")
             if not typed:
                 break
             count += sum(key in KEYS for key in typed)
         return count
+
+    def _in_foreground(self):
+        try:
+            return os.tcgetpgrp(self.terminal) == os.getpgrp()
+        except OSError:  # a terminal that does not control this process knows no background
+            return True
+
+    def _by_keys(self):
+        """Whether keys can be read; sets the terminal to give them singly, as it does not after the background."""
+        if self.terminal is None or not self._in_foreground():
+            return False
+        now = termios.tcgetattr(self.terminal)
+        if now[LFLAG] & termios.ICANON:
+            self.before = now
+            tty.setcbreak(self.terminal)
+        return True
