@@ -52,7 +52,9 @@ def show(episode):
 def how_to_arm(has_keys, arm):
     if has_keys:
         return "space or enter arms the robot, and disarms it"
-    return "arming, as --arm says" if arm else "the robot stays disarmed: there is no terminal to arm it from, nor --arm"
+    return (
+        "arming, as --arm says" if arm else "the robot stays disarmed: there is no terminal to arm it from, nor --arm"
+    )
 
 
 def tell(text):
