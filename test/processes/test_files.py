@@ -259,9 +259,9 @@ def test_recording_is_bounded(smoke_run, tmp_path, observe):
 
 
 @pytest.mark.fault("--resume of an evaluation", injected="RUN/evaluation", expected="refused, and left as it is")
-def test_evaluation_is_not_trained_over(smoke_run, observe):
-    run_script("evaluate", smoke_run.path, "--episodes", 1)
-    folder = RunFolder(smoke_run.path / "evaluation")
+def test_evaluation_is_not_trained_over(run_copy, observe):
+    run_script("evaluate", run_copy.path, "--episodes", 1)
+    folder = RunFolder(run_copy.path / "evaluation")
     before = folder.episodes.read_bytes()
     result = run_script("train", "--resume", folder.path, check=False)
     expect_refused(result, "is an evaluation")
