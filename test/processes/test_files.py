@@ -19,7 +19,7 @@ from limphome_lab.runfolder import RunFolder
 @pytest.fixture
 def run_copy(smoke_run, tmp_path):
     """A run folder of 30 episodes that a test may spoil."""
-    shutil.copytree(smoke_run.path, tmp_path / "run")
+    shutil.copytree(smoke_run.path, tmp_path / "run", ignore=shutil.ignore_patterns("evaluation"))
     return RunFolder(tmp_path / "run")
 
 
