@@ -36,13 +36,14 @@ def start_script(name, *arguments, **options):
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         start_new_session=True,
-        **{"preexec_fn": heed_hang_up, **options},
+        **{"preexec_fn": heed_signals, **options},
     )
 
 
-def heed_hang_up():
-    """As a shell's child does, also where the tests run under nohup."""
-    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+def heed_signals():
+    """As a shell's child does, also where the tests run under nohup or in the background of a script."""
+    for number in (signal.SIGHUP, signal.SIGINT):
+        signal.signal(number, signal.SIG_DFL)
 
 
 def train(out, *arguments, check=True):
