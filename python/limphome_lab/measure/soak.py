@@ -107,7 +107,9 @@ def soak(pace, url, config, done, length):
     histogram, samples, began = Histogram(), [], time.monotonic()
     every = max(1.0, length / SAMPLES) if pace == "real_time" else 1.0
     with tempfile.TemporaryDirectory() as work:
-        folder = runfolder.create(Path(work) / "run", config, paths.CONFIG / "crawler.urdf", settings, real_time=True)
+        folder = runfolder.create(
+            Path(work) / "run", config, paths.CONFIG / "crawler.urdf", settings, real_time=pace == "real_time"
+        )
         with Latencies(url_port(url)) as heard, Pair(folder, url) as pair, Operator(url, print, True) as operator:
             answered_at = sampled_at = 0.0
             while done(heard, time.monotonic() - began) < length:
