@@ -84,8 +84,10 @@ def enter(wanted="private"):
         os.environ[ENVIRONMENT] = "private"
         sys.stdout.flush()
         sys.stderr.flush()
-        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # until with_exit_code of the copy takes it
-        os.execvp(prefix[0], [*prefix, sys.executable, *sys.orig_argv[1:]])
+        # Ctrl-C waits until with_exit_code of the copy takes it; the shell in between lets all signals through again
+        waiting = ["env", "--block-signal=INT"]
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        os.execvp(prefix[0], [*prefix, *waiting, sys.executable, *sys.orig_argv[1:]])
     if wanted == "private":
         print("network: namespaces are not permitted here; using the host's network", file=sys.stderr)
     port = host_port()
