@@ -20,9 +20,10 @@ struct file_link {
     const char *name;
     double mass; /* 0: a frame without mass */
     frame inertial;
-    matrix inertia; /* about the centre of mass, axes of `inertial` */
-    struct file_shape *shapes;
-    int num_shapes;
+    matrix inertia;                       /* about the centre of mass, axes of `inertial` */
+    const struct xml_element *inertia_at; /* or NULL */
+    struct file_shape *shapes;            /* [num_seen] those that touch, then those that are only seen */
+    int num_shapes, num_seen;
 
     /* as found by tree_resolve and merge */
     int joint; /* it hangs on, -1: none */
@@ -73,13 +74,14 @@ struct elements {
     struct file_joint *joints;
     struct file_actuator actuators[ROBOT_MAX_ACTUATORS]; /* crawlers first */
     struct file_support supports[ROBOT_MAX_SUPPORTS];    /* tips first */
+    int moved[ROBOT_MAX_BODIES];                         /* link that the joint of a body moves; [0]: the root */
     int num_links, num_joints, num_actuators, num_supports, num_tips;
 };
 
 /* The links and joints of <robot>. */
 void elements_read(struct reading *r, struct elements *e);
 
-/* The shapes of a link, <collision> kept and <visual> looked at for its numbers only. */
+/* The shapes of a link, of <collision> and <visual>. */
 void shapes_read(struct reading *r, struct file_link *link);
 
 /* <limphome>: which joints are actuators, what the robot stands on. Needs links and joints resolved (tree.h). */

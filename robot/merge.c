@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#define LEAST_MASS 1e-6 /* [kg] */
+
 static void copy_name(char name[ROBOT_NAME_LENGTH], const char *from) {
     snprintf(name, ROBOT_NAME_LENGTH, "%.*s", ROBOT_NAME_LENGTH - 1, from);
 }
@@ -37,6 +39,7 @@ static bool place(struct reading *r, struct elements *e, struct file_link *link,
     const struct file_actuator *actuator = &e->actuators[joint->actuator];
     link->body = joint->actuator + 1;
     link->pose = frame_identity();
+    e->moved[link->body] = joint->child;
     begin_body(joint, link, parent, &robot->bodies[link->body]);
     if (parent->body >= link->body) {
         fault(r, actuator->at, "joint", "stands before joint %.60s, which carries it; arms go from root to tip",
@@ -57,6 +60,7 @@ static bool place(struct reading *r, struct elements *e, struct file_link *link,
 bool merge_links(struct reading *r, struct elements *e, const int order[MOST_LINKS], robot_description *robot) {
     struct file_link *root = &e->links[order[0]];
     root->body = 0;
+    e->moved[0] = order[0];
     root->pose = frame_identity();
     copy_name(robot->bodies[0].name, root->name);
     robot->bodies[0].parent = -1;
@@ -162,6 +166,38 @@ static void add_actuator(const struct elements *e, int index, robot_description 
     crawler->radius = from->radius;
 }
 
+/* Chains of links may lead far where each of them does not. */
+static bool is_far(const double point[3]) {
+    return vector_norm(vector_of(point)) > MOST_METRES;
+}
+
+static void check_body(struct reading *r, const struct xml_element *at, const robot_body *body) {
+    if (!(body->mass >= LEAST_MASS)) {
+        fault(r, at, NULL, "has no mass, nor has what is fixed to it; needs <inertial> with <mass> above 0");
+    } else if (body->mass > MOST_KILOGRAMS) {
+        fault(r, at, NULL, "has, with what is fixed to it, %g kg; must be at most %g", body->mass, MOST_KILOGRAMS);
+    }
+    if (is_far(body->joint.position) || is_far(body->centre)) {
+        fault(r, at, NULL, "is, or has its centre of mass, more than %g m from what it hangs on", MOST_METRES);
+    }
+}
+
+static void check_places(struct reading *r, const struct elements *e, const robot_description *robot) {
+    for (int b = 0; b < robot->num_bodies; b++) {
+        check_body(r, e->links[e->moved[b]].at, &robot->bodies[b]);
+    }
+    for (int i = 0; i < robot->num_supports; i++) {
+        if (is_far(robot->supports[i].point)) {
+            fault(r, e->supports[i].at, "xyz", "is more than %g m from its body", MOST_METRES);
+        }
+    }
+    for (int c = 0; c < ROBOT_CRAWLERS; c++) {
+        if (is_far(robot->crawlers[c].centre)) {
+            fault(r, e->actuators[c].at, "xyz", "is more than %g m from the base", MOST_METRES);
+        }
+    }
+}
+
 void merge_parts(struct reading *r, struct elements *e, const int order[MOST_LINKS], robot_description *robot) {
     for (int i = 0; i < e->num_actuators; i++) {
         add_actuator(e, i, robot);
@@ -177,11 +213,5 @@ void merge_parts(struct reading *r, struct elements *e, const int order[MOST_LIN
             add_shape(r, link, &link->shapes[k], robot);
         }
     }
-    for (int b = 0; b < robot->num_bodies; b++) {
-        const robot_body *body = &robot->bodies[b];
-        if (!(body->mass > 0)) {
-            fault(r, e->links[find_link(e, body->name)].at, NULL,
-                  "has no mass, nor has what is fixed to it; needs <inertial> with <mass> above 0");
-        }
-    }
+    check_places(r, e, robot);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "elements.h"
+#include "inertia.h"
 #include "merge.h"
 #include "stance.h"
 #include "tree.h"
@@ -34,6 +35,9 @@ static void build(struct reading *r, struct elements *e, robot_description *robo
     const char *name = xml_attribute(e->robot, "name");
     snprintf(robot->name, sizeof robot->name, "%.*s", ROBOT_NAME_LENGTH - 1, name == NULL ? "" : name);
     merge_parts(r, e, order, robot);
+    if (r->faults.count == 0) {
+        inertia_check(r, e, robot);
+    }
     if (r->faults.count == 0 && stance_find(r, e, robot)) {
         stance_add_supports(robot);
         allow_contacts(robot);
