@@ -21,6 +21,16 @@ int find_joint(const struct elements *e, const char *name) {
     return -1;
 }
 
+int read_known(struct reading *r, const struct xml_element *at, const char *key, const struct elements *e,
+               int (*find)(const struct elements *, const char *)) {
+    const char *name = read_name(r, at, key);
+    const int index = find(e, name);
+    if (index < 0 && name[0] != '\0') {
+        fault(r, at, key, find == find_link ? "there is no such link" : "there is no such joint");
+    }
+    return index;
+}
+
 /* [kg m^2] */
 #define MOST_INERTIA 1e9
 

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "elements.h"
+#include "hold.h"
 
 #define PI 3.14159265358979323846
 #define LEAST_RANGE 1e-3            /* [rad] */
@@ -20,26 +21,10 @@ static void refuse_unknown_attributes(struct reading *r, const struct xml_elemen
     }
 }
 
-static int read_link_name(struct reading *r, const struct elements *e, const struct xml_element *at) {
-    const char *name = read_name(r, at, "link");
-    const int link = find_link(e, name);
-    if (link < 0 && name[0] != '\0') {
-        fault(r, at, "link", "there is no such link");
-    }
-    return link;
-}
-
 /* The joint an actuator is of, which no other is, or -1 with a fault. */
-static int read_joint_name(struct reading *r, const struct elements *e, const struct xml_element *at) {
-    const char *name = read_name(r, at, "joint");
-    const int joint = find_joint(e, name);
-    if (joint < 0) {
-        if (name[0] != '\0') {
-            fault(r, at, "joint", "there is no such joint");
-        }
-        return -1;
-    }
-    if (e->joints[joint].actuator >= 0) {
+static int read_own_joint(struct reading *r, const struct elements *e, const struct xml_element *at) {
+    const int joint = read_known(r, at, "joint", e, find_joint);
+    if (joint >= 0 && e->joints[joint].actuator >= 0) {
         fault(r, at, "joint", "is an actuator already (line %lu)", e->actuators[e->joints[joint].actuator].at->line);
         return -1;
     }
@@ -78,21 +63,42 @@ static struct file_actuator *add_actuator(struct reading *r, struct elements *e,
     return actuator;
 }
 
-static void read_crawler(struct reading *r, struct elements *e, const struct xml_element *at) {
-    static const char *const known[] = {"joint", "xyz", "length", "width", "radius", "effort", "velocity", NULL};
-    refuse_unknown_attributes(r, at, known);
-    struct file_actuator *c = add_actuator(r, e, at);
-    if (c == NULL) {
-        return;
-    }
-    c->crawler = true;
-    const int joint = read_joint_name(r, e, at);
+static void read_belt(struct reading *r, const struct xml_element *at, struct file_actuator *c) {
     read_vector(r, at, "xyz", true, MOST_METRES, &c->centre);
     const bool sized = read_positive(r, at, "length", true, MOST_METRES, &c->length);
     read_positive(r, at, "width", true, MOST_METRES, &c->width);
     if (read_positive(r, at, "radius", true, MOST_METRES, &c->radius) && sized && c->length < 2 * c->radius) {
         fault(r, at, "length", "must be at least twice the radius of %g m", c->radius);
     }
+}
+
+/* A crawler that the file has no joint for, fixed to a link whose y points to the left. */
+static void read_free_crawler(struct reading *r, struct elements *e, const struct xml_element *at,
+                              struct file_actuator *c) {
+    static const char *const known[] = {"link",   "xyz",      "length",  "width", "radius",
+                                        "effort", "velocity", "inertia", NULL};
+    refuse_unknown_attributes(r, at, known);
+    c->link = read_known(r, at, "link", e, find_link);
+    read_belt(r, at, c);
+    read_positive(r, at, "effort", true, MOST_EFFORT, &c->effort);
+    read_positive(r, at, "velocity", true, MOST_VELOCITY, &c->velocity);
+    read_positive(r, at, "inertia", false, MOST_KILOGRAMS, &c->inertia);
+}
+
+static void read_crawler(struct reading *r, struct elements *e, const struct xml_element *at) {
+    static const char *const known[] = {"joint", "xyz", "length", "width", "radius", "effort", "velocity", NULL};
+    struct file_actuator *c = add_actuator(r, e, at);
+    if (c == NULL) {
+        return;
+    }
+    c->crawler = true;
+    if (xml_attribute(at, "link") != NULL && xml_attribute(at, "joint") == NULL) {
+        read_free_crawler(r, e, at, c);
+        return;
+    }
+    refuse_unknown_attributes(r, at, known);
+    const int joint = read_own_joint(r, e, at);
+    read_belt(r, at, c);
     if (joint < 0) {
         return;
     }
@@ -152,7 +158,7 @@ static void read_arm(struct reading *r, struct elements *e, const struct xml_ele
     }
     double home = 0;
     const bool placed = read_numbers(r, at, "home", true, &home, 1);
-    const int joint = read_joint_name(r, e, at);
+    const int joint = read_own_joint(r, e, at);
     if (joint < 0) {
         return;
     }
@@ -186,7 +192,7 @@ static void read_support(struct reading *r, struct elements *e, const struct xml
         return;
     }
     struct file_support *support = &e->supports[e->num_supports++];
-    *support = (struct file_support){.at = at, .link = read_link_name(r, e, at)};
+    *support = (struct file_support){.at = at, .link = read_known(r, at, "link", e, find_link)};
     read_vector(r, at, "xyz", true, MOST_METRES, &support->point);
     if (tip) {
         read_positive(r, at, "radius", true, MOST_METRES, &support->radius);
@@ -228,25 +234,39 @@ static void check_counts(struct reading *r, const struct elements *e) {
     }
 }
 
+/* What may stand in <limphome>, with the attributes of what is read elsewhere. */
+static void check_names(struct reading *r, const struct xml_element *extension) {
+    static const char *const names[] = {"crawler", "arm", "tip", "support", "hold", "no_contact"};
+    static const char *const own[] = {"self_contact", NULL}, *const hold[] = {"joint", "home", NULL},
+                             *const no_contact[] = {"link1", "link2", NULL};
+    refuse_unknown_attributes(r, extension, own);
+    for (const struct xml_element *at = extension->first; at != NULL; at = at->next) {
+        bool found = false;
+        for (size_t i = 0; i < sizeof names / sizeof names[0] && !found; i++) {
+            found = strcmp(at->name, names[i]) == 0;
+        }
+        if (!found) {
+            fault(r, at, NULL,
+                  "unknown inside <limphome>; known are <crawler>, <arm>, <tip>, <support>, <hold>, <no_contact>");
+        } else if (strcmp(at->name, "hold") == 0) {
+            refuse_unknown_attributes(r, at, hold);
+        } else if (strcmp(at->name, "no_contact") == 0) {
+            refuse_unknown_attributes(r, at, no_contact);
+        }
+    }
+}
+
 void extension_read(struct reading *r, struct elements *e) {
-    static const char *const known[] = {"crawler", "arm", "tip", "support"};
     e->extension = read_child(r, e->robot, "limphome");
     if (e->extension == NULL) {
         fault(r, e->robot, NULL, "needs <limphome>, which names crawlers, arm joints and tip");
         return;
     }
-    for (const struct xml_element *at = e->extension->first; at != NULL; at = at->next) {
-        bool found = false;
-        for (size_t i = 0; i < sizeof known / sizeof known[0] && !found; i++) {
-            found = strcmp(at->name, known[i]) == 0;
-        }
-        if (!found) {
-            fault(r, at, NULL, "unknown inside <limphome>; known are <crawler>, <arm>, <tip>, <support>");
-        }
-    }
+    check_names(r, e->extension);
     read_each(r, e, "crawler", read_crawler);
     read_each(r, e, "arm", read_arm);
     read_each(r, e, "tip", read_support);
     read_each(r, e, "support", read_support);
     check_counts(r, e);
+    hold_joints(r, e);
 }

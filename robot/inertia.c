@@ -110,6 +110,9 @@ void inertia_check(struct reading *r, const struct elements *e, const robot_desc
     bool possible[ROBOT_MAX_BODIES];
     for (int b = 0; b < robot->num_bodies; b++) {
         double moments[3];
+        if (b > 0 && e->actuators[b - 1].joint < 0) {
+            continue; /* a sprocket that no link is */
+        }
         body_moments(&robot->bodies[b], moments);
         possible[b] = is_possible(moments);
         if (!(moments[0] > 0) && possible[b]) {

@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "elements.h"
+#include "mesh.h"
 
 static void read_box(struct reading *r, const struct xml_element *at, struct file_shape *shape) {
     vector size = {0, 0, 0};
@@ -56,10 +57,10 @@ static bool read_shape(struct reading *r, const struct xml_element *at, struct f
         read_sphere(r, geometry, shape);
     } else if (strcmp(geometry->name, "cylinder") == 0) {
         read_cylinder(r, geometry, shape);
-    } else if (strcmp(geometry->name, "mesh") == 0 && strcmp(at->name, "visual") == 0) {
-        return false; /* nothing is drawn with it */
+    } else if (strcmp(geometry->name, "mesh") == 0) {
+        return strcmp(at->name, "collision") == 0 && mesh_read(r, geometry, shape); /* nothing is drawn with it */
     } else {
-        fault(r, geometry, NULL, "unknown shape; known are <box>, <sphere>, <cylinder>");
+        fault(r, geometry, NULL, "unknown shape; known are <box>, <sphere>, <cylinder>, <mesh>");
         return false;
     }
     return true;
