@@ -5,25 +5,41 @@
 
 #define DEGREES (180.0 / 3.14159265358979323846)
 
+/* Width of the column of names. */
+static int name_width(const robot_description *robot) {
+    size_t width = 12;
+    for (int i = 0; i < robot->num_bodies; i++) {
+        const size_t body = strlen(robot->bodies[i].name);
+        width = body > width ? body : width;
+    }
+    for (int i = 0; i < robot->num_actuators; i++) {
+        const size_t actuator = strlen(robot->actuators[i].name);
+        width = actuator > width ? actuator : width;
+    }
+    return (int)width;
+}
+
 static void put_bodies(FILE *out, const robot_description *robot, const robot_facts *facts) {
-    fprintf(out, "\nbodies                        mass  centre of mass [m], in the frame of each\n");
+    const int width = name_width(robot);
+    fprintf(out, "\n%-*s         mass  centre of mass [m], in the frame of each\n", width + 2, "bodies");
     for (int i = 0; i < robot->num_bodies; i++) {
         const robot_body *b = &robot->bodies[i];
-        fprintf(out, "  %-20s %8.4g kg  %7.3f %7.3f %7.3f\n", b->name, b->mass, b->centre[0], b->centre[1],
+        fprintf(out, "  %-*s  %8.4g kg  %7.3f %7.3f %7.3f\n", width, b->name, b->mass, b->centre[0], b->centre[1],
                 b->centre[2]);
     }
     const double *all = facts->home.centre_of_mass;
-    fprintf(out, "  %-20s %8.4g kg  %7.3f %7.3f %7.3f  at home, in the frame of the base\n", "all", facts->mass, all[0],
-            all[1], all[2]);
+    fprintf(out, "  %-*s  %8.4g kg  %7.3f %7.3f %7.3f  at home, in the frame of the base\n", width, "all", facts->mass,
+            all[0], all[1], all[2]);
 }
 
 static void put_crawlers(FILE *out, const robot_description *robot, const robot_facts *facts) {
-    fprintf(out, "\ncrawlers          long   wide  radius [m]  middle at [m]            torque      speed\n");
+    const int width = name_width(robot);
+    fprintf(out, "\n%-*s    long    wide  radius [m]  middle at [m]\n", width + 2, "crawlers");
     for (int i = 0; i < ROBOT_CRAWLERS; i++) {
         const robot_crawler *c = &robot->crawlers[i];
         const robot_actuator *a = &robot->actuators[i];
-        fprintf(out, "  %-14s %6.3f %6.3f %6.3f      %6.3f %6.3f %6.3f %9.4g N m %6.3g rad/s, %.3g m/s\n", a->name,
-                c->length, c->width, c->radius, c->centre[0], c->centre[1], c->centre[2], a->effort, a->speed,
+        fprintf(out, "  %-*s  %6.3f  %6.3f  %6.3f      %6.3f %6.3f %6.3f, %.4g N m, %.3g rad/s (%.3g m/s)\n", width,
+                a->name, c->length, c->width, c->radius, c->centre[0], c->centre[1], c->centre[2], a->effort, a->speed,
                 a->speed * c->radius);
     }
     if (isfinite(facts->ground_pressure)) {
@@ -32,11 +48,12 @@ static void put_crawlers(FILE *out, const robot_description *robot, const robot_
 }
 
 static void put_arm(FILE *out, const robot_description *robot) {
-    fprintf(out, "\narm                  from       to     home [rad]    torque      speed\n");
+    const int width = name_width(robot);
+    fprintf(out, "\n%-*s      from       to     home [rad]\n", width + 2, "arm");
     for (int i = ROBOT_CRAWLERS; i < robot->num_actuators; i++) {
         const robot_actuator *a = &robot->actuators[i];
-        fprintf(out, "  %-14s %8.3f %8.3f %8.3f     %9.4g N m %6.3g rad/s\n", a->name, a->lower, a->upper, a->home,
-                a->effort, a->speed);
+        fprintf(out, "  %-*s  %8.3f %8.3f %8.3f      %.4g N m, %.3g rad/s\n", width, a->name, a->lower, a->upper,
+                a->home, a->effort, a->speed);
     }
 }
 

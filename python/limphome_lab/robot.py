@@ -4,14 +4,12 @@ Frames and actuator order as in lcmtypes/limphome_robot_state.lcm; the fields of
 robot/robot_description.h and controller/describe/facts.h.
 """
 
-import json
-import subprocess
 from dataclasses import dataclass
 
 import numpy as np
 
-from limphome_lab import paths
-from limphome_lab.ending import Ending, InputError
+from limphome_lab import describe
+from limphome_lab.ending import InputError
 
 END_POINTS = 13  # points on each rounded end of a crawler; odd, so that its very end is one
 AROUND = np.linspace(0, 2 * np.pi, 24, endpoint=False)  # points round a cylinder or ball [rad]
@@ -27,23 +25,9 @@ class Part:
     body: int
 
 
-def options(packages):
-    """Of limphome-describe; `packages`: folders for package://, or None."""
-    return ["--packages", packages] if packages else []
-
-
-def ask(file, packages=None):
-    """(exit code, what limphome-describe tells of a file, as JSON has it)"""
-    command = [paths.program("describe"), "--json", *options(packages), file]
-    result = subprocess.run(command, capture_output=True, text=True)
-    if not result.stdout:
-        raise Ending(result.stderr.strip() or f"{command[0]}: exit {result.returncode}")
-    return result.returncode, json.loads(result.stdout)
-
-
 def read(file, packages=None):
     """The robot in a file. What is refused ends with the reasons."""
-    code, told = ask(file, packages)
+    code, told = describe.ask(file, packages)
     if code != 0:
         raise InputError("\n".join(told["faults"]))
     return Robot(told)

@@ -9,7 +9,7 @@ import sys
 from dataclasses import dataclass, fields
 from pathlib import Path
 
-from limphome_lab import command, files, lock, paths
+from limphome_lab import command, describe, files, lock, paths
 from limphome_lab.ending import InputError
 
 CHECKPOINT = re.compile(r"episode_\d{6,}\.lcm")
@@ -44,6 +44,7 @@ class RunFolder:
         self.path = Path(path).absolute()
         self.config = self.path / "config.ini"
         self.robot = self.path / "robot.urdf"
+        self.meshes = self.path / "robot_meshes"  # of robot.urdf, found there before anywhere else
         self.episodes = self.path / "episodes.csv"
         self.policy = self.path / "policy.lcm"
         self.checkpoints = self.path / "checkpoint"
@@ -163,10 +164,11 @@ def find_robot(robot):
     return own if Path(robot).name == str(robot) and not Path(robot).exists() and own.is_file() else Path(robot)
 
 
-def create(out, config, robot, assignments, controller_options=(), anew=False, real_time=False):
-    """Makes a run folder with its inputs, config.ini as resolved and robot.urdf, and takes it for this process. `out`
-    None: a new one below runs/. With `anew`, what an earlier run left there is removed. Without `real_time` there will
-    be no operator, and a plant that waits to be armed is refused.
+def create(out, config, robot, assignments, controller_options=(), anew=False, real_time=False, packages=None):
+    """Makes a run folder with its inputs, config.ini as resolved and robot.urdf with its meshes, and takes it for this
+    process. `out` None: a new one below runs/. With `anew`, what an earlier run left there is removed. Without
+    `real_time` there will be no operator, and a plant that waits to be armed is refused. `packages`: folders in which
+    package:// of the robot's meshes is looked for.
 
     Both programs read all of them before, with `controller_options`, so that what is bad leaves no folder behind."""
     robot = find_robot(robot)
@@ -177,7 +179,7 @@ def create(out, config, robot, assignments, controller_options=(), anew=False, r
     if not real_time and pace == "real_time":
         launch = f"{command.called('launch')} --arm"
         raise InputError(f"simulator.pace = real_time: the plant would wait for ever to be armed; {launch} arms it")
-    options = [*setting_options(config, assignments), "--robot", robot, "--check"]
+    options = [*setting_options(config, assignments), "--robot", robot, *describe.options(packages), "--check"]
     ask("controller", *options, *controller_options)
     ask("simulator", *options)
     if out is None:
@@ -186,18 +188,22 @@ def create(out, config, robot, assignments, controller_options=(), anew=False, r
     folder = RunFolder(out)
     try:
         _take_empty(folder, out, anew)
-        _write_inputs(folder, resolved, Path(robot).read_bytes())
+        _write_inputs(folder, resolved, Path(robot), describe.meshes(Path(robot), packages))
     except OSError as error:
         raise InputError(f"{out}: cannot be made a run folder: {error.strerror}") from error
     return folder
 
 
-def _write_inputs(folder, config, robot):
-    """Both, or neither."""
+def _write_inputs(folder, config, robot, meshes):
+    """All of them, or none."""
     try:
+        for name, path in meshes.items():
+            folder.meshes.mkdir(exist_ok=True)
+            shutil.copyfile(path, folder.meshes / describe.copy_name(name))
         files.replace(folder.config, config)
-        files.replace(folder.robot, robot)
+        files.replace(folder.robot, robot.read_bytes())
     except OSError:
+        shutil.rmtree(folder.meshes, ignore_errors=True)
         folder.config.unlink(missing_ok=True)
         raise
 
@@ -205,7 +211,8 @@ def _write_inputs(folder, config, robot):
 def _begun(folder):
     """Whether there is more than what a script leaves that was killed while it made the folder."""
     made = {name for file in (folder.config, folder.robot, folder.manifest) for name in (file.name, f"{file.name}.new")}
-    return any(file.name not in made - {folder.manifest.name} for file in folder.others())
+    made = made - {folder.manifest.name} | {folder.meshes.name}
+    return any(file.name not in made for file in folder.others())
 
 
 def _take_empty(folder, out, anew):

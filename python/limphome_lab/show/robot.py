@@ -6,7 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from limphome_lab import command, paths, runfolder
+from limphome_lab import command, describe, paths, runfolder
 from limphome_lab.ending import with_exit_code
 from limphome_lab.show import template
 
@@ -38,11 +38,11 @@ def explain(file, args):
     from limphome_lab.show.figures import style
 
     if not args.json:
-        command_line = [paths.program("describe"), *robot.options(args.packages), file]
+        command_line = [paths.program("describe"), *describe.options(args.packages), file]
         code = subprocess.run(command_line, check=False).returncode
         if code != 0:
             return code
-    code, told = robot.ask(file, args.packages)
+    code, told = describe.ask(file, args.packages)
     if args.json:
         print(json.dumps(told, indent=2))
     if code == 0 and (args.picture or not args.json):
