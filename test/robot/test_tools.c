@@ -203,7 +203,7 @@ static void expect_camera(double x, double y, double z) {
     const robot_shape *ball = e.robot.shapes;
     while (strcmp(ball->name, "camera") != 0) {
         ball++;
-        ck_assert_ptr_lt(ball, e.robot.shapes + e.robot.num_shapes);
+        ck_assert(ball < e.robot.shapes + e.robot.num_shapes);
     }
     ck_assert_int_eq(ball->body, 3);
     ck_assert_double_eq_tol(ball->pose.position[0], x, 1e-12);
