@@ -1,5 +1,6 @@
 #include "facts.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -30,24 +31,6 @@ static lh_posture upright(const lh_robot *robot, const float *angle) {
     return posture;
 }
 
-/* The robot at rest with these joint angles. */
-static facts_posture stand(const lh_robot *robot, int num_tips, const float *angle) {
-    facts_posture facts;
-    memset(&facts, 0, sizeof facts);
-    memcpy(facts.angle, angle, (size_t)robot->num_actuators * sizeof *angle);
-    lh_rest rest;
-    lh_rest_find(robot, angle, level, lh_task_config_default().support_tolerance, &rest);
-    facts.rests = rest.num_carrying > 0;
-    facts.braced = rest.braced;
-    facts.margin = (double)rest.margin;
-    const lh_posture posture = upright(robot, angle);
-    to_doubles(posture.centre_of_mass, facts.centre_of_mass);
-    for (int t = 0; t < num_tips; t++) {
-        to_doubles(posture.supports[t], facts.tip[t]);
-    }
-    return facts;
-}
-
 /* Supports of the base: on these it stands while its arm is in the air. */
 static int32_t base_supports(const lh_robot *robot, const lh_posture *posture, lh_vec3 points[LH_MAX_SUPPORTS]) {
     int32_t count = 0;
@@ -57,6 +40,42 @@ static int32_t base_supports(const lh_robot *robot, const lh_posture *posture, l
         }
     }
     return count;
+}
+
+/* Whether the arm is at the height of the ground or below it, the robot level on its base. */
+static bool arm_is_down(const lh_robot *robot, const lh_posture *posture) {
+    float ground = FLT_MAX, arm = FLT_MAX;
+    for (int32_t i = 0; i < robot->num_supports; i++) {
+        float *least = robot->supports[i].link == 0 ? &ground : &arm;
+        *least = posture->supports[i].z < *least ? posture->supports[i].z : *least;
+    }
+    return arm <= ground;
+}
+
+/* The robot with these joint angles, put level on its base. With its arm in the air it stays there or tumbles; with its
+ * arm on the ground it comes to rest somewhere else. */
+static facts_posture stand(const lh_robot *robot, int num_tips, const float *angle) {
+    facts_posture facts;
+    memset(&facts, 0, sizeof facts);
+    memcpy(facts.angle, angle, (size_t)robot->num_actuators * sizeof *angle);
+    const lh_posture posture = upright(robot, angle);
+    if (arm_is_down(robot, &posture)) {
+        lh_rest rest;
+        lh_rest_find(robot, angle, level, lh_task_config_default().support_tolerance, &rest);
+        facts.rests = rest.num_carrying > 0;
+        facts.braced = rest.braced;
+        facts.margin = (double)rest.margin;
+    } else {
+        lh_vec3 points[LH_MAX_SUPPORTS];
+        const int32_t count = base_supports(robot, &posture, points);
+        facts.margin = (double)lh_stability_margin(points, count, posture.centre_of_mass);
+        facts.rests = facts.margin > 0.0;
+    }
+    to_doubles(posture.centre_of_mass, facts.centre_of_mass);
+    for (int t = 0; t < num_tips; t++) {
+        to_doubles(posture.supports[t], facts.tip[t]);
+    }
+    return facts;
 }
 
 /* The largest x of 0 to `most` at which the robot does not tumble, given that it does beyond. */

@@ -17,12 +17,12 @@ enum facts_direction { FACTS_FORWARD, FACTS_LEFT, FACTS_BACKWARD, FACTS_RIGHT, F
 /* What bounds how much a tip can lift or press. */
 enum { FACTS_TUMBLES = -1, FACTS_UNBOUNDED = -2 }; /* else the index of the actuator that is too weak */
 
-/* The robot at rest in one posture of its arm. */
+/* The robot put down in one posture of its arm. */
 typedef struct facts_posture {
     float angle[ROBOT_MAX_ACTUATORS]; /* of the joints; 0 for crawlers */
-    bool rests;                       /* on anything */
+    bool rests;                       /* on its crawlers, or with its arm on the ground on that, too; else it tumbles */
     bool braced;                      /* on the arm, too */
-    double margin;                    /* S_NE of (11) where it rests [m] */
+    double margin;                    /* S_NE of (11) there [m] */
     double centre_of_mass[3];
     double tip[ROBOT_MAX_SUPPORTS][3]; /* [num_tips] lowest points */
 } facts_posture;
@@ -50,7 +50,7 @@ typedef struct robot_facts {
     double tilt[FACTS_DIRECTIONS]; /* of the ground at which it tumbles in its initial pose, that side downhill */
     int num_postures;              /* of the sweep: even steps over all joints' ranges */
     int num_braced;                /* of these, in which the arm carries, too */
-    int num_nowhere;               /* in which it rests nowhere */
+    int num_nowhere;               /* in which it tumbles */
     facts_posture least; /* of those in which it stands on its crawlers alone, the one with the least margin */
     facts_tip tips[ROBOT_MAX_SUPPORTS]; /* [num_tips] */
 } robot_facts;

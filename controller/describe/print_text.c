@@ -103,7 +103,7 @@ static void put_stance(FILE *out, const robot_description *robot, const robot_fa
         fprintf(out, "it stands on its crawlers%s, margin %.3f m\n", facts->home.braced ? " and its arm" : "",
                 facts->home.margin);
     } else {
-        fprintf(out, "it stands nowhere: it tumbles\n");
+        fprintf(out, "it does not stand: it tumbles\n");
     }
     fprintf(out,
             "  tumbles on ground that falls by %.0f degrees ahead, %.0f behind, %.0f to the left, %.0f to the right\n",

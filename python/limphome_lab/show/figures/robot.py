@@ -31,7 +31,6 @@ def draw(robot):
         outline.view(
             axes, parts, across, lambda p, a=across, s=nearest_last: s * p[:, LEFT if a == UP else UP], alpha=0.75
         )
-        _joints(axes, robot, frames, across)
         axes.plot(
             *np.array(robot.told["home"]["centre_of_mass"])[[FORWARD, across]],
             marker="o",
@@ -42,6 +41,7 @@ def draw(robot):
             zorder=6,
         )
         axes.set(xlim=(low[FORWARD], high[FORWARD]), ylim=(low[across], high[across]))
+        _joints(axes, robot, frames, across)
     outline.ground(side)
     side.set_ylabel("from the right:\nup [m]")
     above.set(xlabel="forward [m]", ylabel="from above:\nleft [m]")
@@ -69,17 +69,18 @@ def _reach(axes, reached, across):
 def _joints(axes, robot, frames, across):
     """Joints of the arm by name, and lines to what they hang on: an arm need not have shapes."""
     seen = [frame[[FORWARD, across], 3] for frame in frames]
+    near = 0.03 * np.ptp(axes.get_xlim())  # names nearer than this would lie on one another
     names = {}
     for body in range(1 + len(robot.crawlers), len(frames)):
         parent = robot.bodies[body]["parent"]
         if parent > 0:
             axes.plot(*zip(seen[parent], seen[body], strict=True), color=style.INK, linewidth=1, zorder=4)
-        names.setdefault(tuple(seen[body].round(3)), []).append(robot.actuators[body - 1])
+        axes.plot(*seen[body], "o", markersize=4, color=style.INK, zorder=5)
+        names.setdefault(tuple((seen[body] / near).round()), (seen[body], []))[1].append(robot.actuators[body - 1])
     for tip in robot.tips:
         at = apply(frames[tip["body"]], tip["point"])[[FORWARD, across]]
         axes.plot(*zip(seen[tip["body"]], at, strict=True), color=style.INK, linewidth=1, zorder=4)
-    for at, joints in names.items():
-        axes.plot(*at, "o", markersize=4, color=style.INK, zorder=5)
+    for at, joints in names.values():
         axes.annotate(", ".join(joints), at, (4, 4), textcoords="offset points", fontsize=8, zorder=7)
 
 
