@@ -18,6 +18,7 @@ enum option_code {
     LCM_URL,
     OUT,
     EVALUATE,
+    LIST_MESHES,
     RESUME,
     CHECK,
     HELP,
@@ -41,6 +42,7 @@ static const struct option controller_options[] = {
     {"out", required_argument, NULL, OUT},
     {"resume", no_argument, NULL, RESUME},
     {"evaluate", required_argument, NULL, EVALUATE},
+    {"list-meshes", no_argument, NULL, LIST_MESHES},
     {NULL, 0, NULL, 0},
 };
 enum { SHARED_OPTIONS = 10 };
@@ -65,7 +67,9 @@ static const char files_help[] =
 static const char controller_help[] =
     "  --out DIR                write the run folder: episodes.csv, policy.lcm, checkpoint/, messages.lcmlog\n"
     "  --resume                 go on from the newest good checkpoint in DIR; with --check, tell which\n"
-    "  --evaluate POLICY        drive with a learned policy, without learning, [learning] episodes more\n";
+    "  --evaluate POLICY        drive with a learned policy, without learning, [learning] episodes more\n"
+    "  --list-meshes            print the files that the robot file needs besides, a line each: where a copy is found\n"
+    "                           first, seen from its folder, a tab, and the path; and exit\n";
 
 static const char *program_name(command_line_program program) {
     return program == COMMAND_LINE_CONTROLLER ? "limphome-controller" : "limphome-simulator";
@@ -165,6 +169,9 @@ command_line_result command_line_parse(int argc, char **argv, command_line_progr
                 break;
             case EVALUATE:
                 line->evaluate = optarg;
+                break;
+            case LIST_MESHES:
+                line->list_meshes = true;
                 break;
             case RESUME:
                 line->resume = true;

@@ -11,6 +11,14 @@ static void put_lines(json *j, const char *name, char *const *lines, int count) 
     json_close(j, ']');
 }
 
+static void put_meshes(json *j, const robot_report *report) {
+    json_open(j, "meshes", '[');
+    for (int i = 0; i < report->num_meshes; i++) {
+        json_text(j, NULL, report->meshes[i].path);
+    }
+    json_close(j, ']');
+}
+
 static void put_pose(json *j, const robot_pose *pose) {
     json_numbers(j, "position", pose->position, 3);
     json_numbers(j, "rotation", pose->rotation, 4);
@@ -190,7 +198,7 @@ void print_json(FILE *out, const char *path, const robot_report *report, const r
     json_bool(&j, "accepted", robot != NULL);
     put_lines(&j, "faults", report->faults, report->num_faults);
     put_lines(&j, "notices", report->notices, report->num_notices);
-    put_lines(&j, "meshes", report->meshes, report->num_meshes);
+    put_meshes(&j, report);
     if (robot != NULL) {
         char hash[17];
         snprintf(hash, sizeof hash, "%016" PRIx64, robot->hash);

@@ -9,7 +9,7 @@ import sys
 from dataclasses import dataclass, fields
 from pathlib import Path
 
-from limphome_lab import command, describe, files, lock, paths
+from limphome_lab import command, files, lock, paths
 from limphome_lab.ending import InputError
 
 CHECKPOINT = re.compile(r"episode_\d{6,}\.lcm")
@@ -44,7 +44,7 @@ class RunFolder:
         self.path = Path(path).absolute()
         self.config = self.path / "config.ini"
         self.robot = self.path / "robot.urdf"
-        self.meshes = self.path / "robot_meshes"  # of robot.urdf, found there before anywhere else
+        self.meshes = self.path / "robot_meshes"  # where the programs look for them first
         self.episodes = self.path / "episodes.csv"
         self.policy = self.path / "policy.lcm"
         self.checkpoints = self.path / "checkpoint"
@@ -165,10 +165,10 @@ def find_robot(robot):
 
 
 def create(out, config, robot, assignments, controller_options=(), anew=False, real_time=False, packages=None):
-    """Makes a run folder with its inputs, config.ini as resolved and robot.urdf with its meshes, and takes it for this
+    """Makes a run folder with its inputs, config.ini as resolved, robot.urdf and its meshes, and takes it for this
     process. `out` None: a new one below runs/. With `anew`, what an earlier run left there is removed. Without
-    `real_time` there will be no operator, and a plant that waits to be armed is refused. `packages`: folders in which
-    package:// of the robot's meshes is looked for.
+    `real_time` there will be no operator, and a plant that waits to be armed is refused. `packages`: where package://
+    lies, as of the programs.
 
     Both programs read all of them before, with `controller_options`, so that what is bad leaves no folder behind."""
     robot = find_robot(robot)
@@ -179,32 +179,34 @@ def create(out, config, robot, assignments, controller_options=(), anew=False, r
     if not real_time and pace == "real_time":
         launch = f"{command.called('launch')} --arm"
         raise InputError(f"simulator.pace = real_time: the plant would wait for ever to be armed; {launch} arms it")
-    options = [*setting_options(config, assignments), "--robot", robot, *describe.options(packages), "--check"]
+    named = ["--robot", robot, *(("--packages", packages) if packages else ())]
+    options = [*setting_options(config, assignments), *named, "--check"]
     ask("controller", *options, *controller_options)
     ask("simulator", *options)
+    meshes = dict(line.split("\t") for line in ask("controller", *named, "--list-meshes").splitlines())
     if out is None:
         seed = parse_settings(resolved, config)["learning"]["seed"]
         out = paths.new_run(f"{Path(config).stem}-seed{seed}")
     folder = RunFolder(out)
     try:
         _take_empty(folder, out, anew)
-        _write_inputs(folder, resolved, Path(robot), describe.meshes(Path(robot), packages))
+        _write_inputs(folder, resolved, Path(robot).read_bytes(), meshes)
     except OSError as error:
         raise InputError(f"{out}: cannot be made a run folder: {error.strerror}") from error
     return folder
 
 
 def _write_inputs(folder, config, robot, meshes):
-    """All of them, or none."""
+    """All, or none."""
     try:
-        for name, path in meshes.items():
-            folder.meshes.mkdir(exist_ok=True)
-            shutil.copyfile(path, folder.meshes / describe.copy_name(name))
         files.replace(folder.config, config)
-        files.replace(folder.robot, robot.read_bytes())
+        for copy, mesh in meshes.items():
+            folder.meshes.mkdir(exist_ok=True)
+            files.replace(folder.path / copy, Path(mesh).read_bytes())
+        files.replace(folder.robot, robot)
     except OSError:
-        shutil.rmtree(folder.meshes, ignore_errors=True)
         folder.config.unlink(missing_ok=True)
+        shutil.rmtree(folder.meshes, ignore_errors=True)
         raise
 
 

@@ -25,7 +25,7 @@ def parse_arguments():
     parser = command.parser("train", "Trains a policy and leaves a run folder.", "--seed 2 --episodes 100")
     parser.add_argument("--config", help="experiment (INI); default config/default.ini")
     parser.add_argument("--robot", help="robot (URDF); default config/crawler.urdf")
-    parser.add_argument("--packages", metavar="DIR[:DIR]", help="where package:// of its meshes is looked for first")
+    parser.add_argument("--packages", metavar="DIR[:DIR]", help="where package:// of the robot's meshes is looked for")
     parser.add_argument("--episodes", type=int, help="how many; short for --set learning.episodes=N")
     parser.add_argument("--seed", type=int, help="of every random number; short for --set learning.seed=N")
     parser.add_argument(
@@ -45,8 +45,9 @@ def parse_arguments():
     parser.add_argument("--no-figures", dest="figures", action="store_false", help="draw none; plot does it later")
     parser.add_argument("--quiet", action="store_true", help="no progress")
     args = parser.parse_args()
-    fixed = (args.config, args.robot, args.packages, args.out, args.set)
-    if args.resume is not None and (any(fixed) or args.seed is not None):
+    if args.resume is not None and (
+        args.config or args.robot or args.packages or args.out or args.set or args.seed is not None
+    ):
         parser.error("--resume takes all from the run folder; only --episodes can be changed")
     return args
 
