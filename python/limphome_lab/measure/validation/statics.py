@@ -27,6 +27,7 @@ class Machine:
         root = xml.parse(path).getroot()
         self.robot = urdf.Robot(path)
         self.inertials = {link.get("name"): self._inertial(link) for link in root.findall("link")}
+        self.inertia = {link.get("name"): self._inertia(link) for link in root.findall("link")}
         self.mass = sum(mass for mass, _ in self.inertials.values())
         self.weight = self.mass * GRAVITY
         extension = root.find("limphome")
@@ -47,6 +48,13 @@ class Machine:
         origin = inertial.find("origin")
         centre = np.zeros(3) if origin is None else _numbers(origin.get("xyz"))
         return float(inertial.find("mass").get("value")), centre
+
+    @staticmethod
+    def _inertia(link):
+        """[3x3] about the link's centre of mass [kg m^2]."""
+        e = link.find("inertial/inertia")
+        xx, yy, zz, xy, xz, yz = (float(e.get(k)) for k in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz"))
+        return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
     def all_rates(self, rates):
         """`rates` of the first actuators, and 0 for the others: (of the crawlers, of the arm)."""
@@ -85,6 +93,40 @@ def loads(points, centre_of_mass, weight):
     return basis @ np.linalg.solve(basis.T @ basis, moments)
 
 
+def yaw_per_swing(machine, angles):
+    """Turn of the base per turn of the first arm joint, about the vertical, with nothing to hold it: their angular
+    momenta about the common centre of mass cancel."""
+    swing = next(joint for joint in machine.robot.joints if joint.name == machine.robot.arm[0])
+    frames = machine.frames(angles)
+    common, pivot = machine.centre_of_mass(frames)[:2], frames[swing.child][:2, 3]
+    carried = {swing.child}
+    for joint in machine.robot.joints:  # parents come before their children in the file
+        if joint.parent in carried:
+            carried.add(joint.child)
+    whole = swinging = 0.0
+    for link, (mass, centre) in machine.inertials.items():
+        axes, place = frames[link][:3, :3], _point(frames[link], centre)[:2]
+        own = (axes @ machine.inertia[link] @ axes.T)[2, 2]
+        whole += own + mass * np.sum((place - common) ** 2)
+        if link in carried:
+            swinging += own + mass * (place - common) @ (place - pivot)
+    return -swinging / whole
+
+
+def holding_torques(machine, pose, tip_load):
+    """Of the arm's drives [N m]: what a small turn of each joint lifts of the weight, less what the ground lifts at the
+    tip. `pose` has actuator_position, position and orientation."""
+
+    def energy(angles):
+        frames = machine.frames(angles, pose.position, pose.orientation)
+        return machine.weight * machine.centre_of_mass(frames)[2] - tip_load * machine.tip_point(frames)[2]
+
+    small = 1e-5
+    turns = small * np.eye(len(machine.home))[len(machine.crawlers) :]
+    angles = pose.actuator_position
+    return np.array([energy(angles + turn) - energy(angles - turn) for turn in turns]) / (2 * small)
+
+
 @dataclass
 class Footing:
     """Points of contact in the body frame with the friction they can bear and the belt they belong to."""
@@ -94,18 +136,21 @@ class Footing:
     belt: np.ndarray  # index of the belt, -1: none
 
 
-def on_crawlers(machine, mu, angles=None):
-    """The robot level on both crawlers."""
+def on_crawlers(machine, mu, angles=None, gravity=(0, 0, -GRAVITY)):
+    """The robot on both crawlers; `gravity` in its frame, with sideways components where the ground slopes."""
     points = np.vstack([machine.crawler_points(crawler) for crawler in (0, 1)])
     frames = machine.frames(machine.home if angles is None else angles)
-    carried = loads(points, machine.centre_of_mass(frames), machine.weight)
+    down = np.array(gravity) / -gravity[2]
+    centre = machine.centre_of_mass(frames)
+    carried = loads(points, centre + centre[2] * down, -machine.mass * gravity[2])  # as if it stood over where it leans
     return Footing(points, mu * carried, np.repeat([0, 1], 4))
 
 
-def least_power(footing, belt_speeds):
+def least_power(footing, belt_speeds, push=(0, 0, 0)):
     """Motion (vx, vy, yaw rate) that loses least power sum mu N |slip|, with the force that the ground takes from each
-    belt [N]. A belt whose speed is None turns freely and is found too. The sum is convex; Newton's method on it with
-    |slip| rounded off more and more finely."""
+    belt [N]. A belt whose speed is None turns freely and is found too. `push` (forces ahead and to the left [N], moment
+    about the origin [N m]) gives power. The sum is convex; Newton's method on it with |slip| rounded off more and more
+    finely."""
     free = [b for b, speed in enumerate(belt_speeds) if speed is None]
     n = len(footing.points)
     slip = np.zeros((n, 2, 3 + len(free)))  # slip velocity = slip @ unknowns - known
@@ -118,23 +163,24 @@ def least_power(footing, belt_speeds):
         elif belt >= 0:
             known[i, 0] = belt_speeds[belt]
     unknowns = np.zeros(3 + len(free))
+    given = np.concatenate([push, np.zeros(len(free))])
     for rounding in 10.0 ** np.arange(-1, -8, -0.5):
-        unknowns = _newton(unknowns, slip, known, footing.friction, rounding)
+        unknowns = _newton(unknowns, slip, known, footing.friction, given, rounding)
     velocity = slip @ unknowns - known
     force = footing.friction[:, None] * velocity / np.hypot(np.linalg.norm(velocity, axis=1), rounding)[:, None]
     pull = np.array([force[footing.belt == belt, 0].sum() for belt in range(len(belt_speeds))])
     return unknowns[:3], -pull
 
 
-def _newton(unknowns, slip, known, friction, rounding):
+def _newton(unknowns, slip, known, friction, given, rounding):
     def power(x):
-        return np.sum(friction * np.sqrt(np.sum((slip @ x - known) ** 2, axis=1) + rounding**2))
+        return np.sum(friction * np.sqrt(np.sum((slip @ x - known) ** 2, axis=1) + rounding**2)) - given @ x
 
     for _ in range(200):
         velocity = slip @ unknowns - known
         length = np.sqrt(np.sum(velocity**2, axis=1) + rounding**2)
         direction = velocity / length[:, None]
-        gradient = np.einsum("i,ij,ijk->k", friction, direction, slip)
+        gradient = np.einsum("i,ij,ijk->k", friction, direction, slip) - given
         bend = (np.eye(2) - direction[:, :, None] * direction[:, None, :]) * (friction / length)[:, None, None]
         step = -np.linalg.lstsq(np.einsum("ijk,ijl,ilm->km", slip, bend, slip), gradient, rcond=1e-14)[0]
         size = 1.0
