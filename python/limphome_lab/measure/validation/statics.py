@@ -73,6 +73,42 @@ def loads(points, centre_of_mass, weight):
     return basis @ np.linalg.solve(basis.T @ basis, moments)
 
 
+def yaw_per_swing(machine, angles):
+    """Turn of the base per turn of the first arm joint, about the vertical, with nothing to hold it: their angular
+    momenta about the common centre of mass cancel."""
+    bodies = machine.robot.bodies
+    first = 1 + len(machine.crawlers)  # the body that the first arm joint moves
+    frames = machine.frames(angles)
+    common, pivot = machine.centre_of_mass(frames)[:2], frames[first][:2, 3]
+    carried = {first}
+    for index, body in enumerate(bodies):  # each after its parent
+        if body["parent"] in carried:
+            carried.add(index)
+    whole = swinging = 0.0
+    for index, body in enumerate(bodies):
+        axes, mass = frames[index][:3, :3], body["mass"]
+        place = robot.apply(frames[index], np.array(body["centre"]))[:2]
+        own = (axes @ np.array(body["inertia"]) @ axes.T)[2, 2]
+        whole += own + mass * np.sum((place - common) ** 2)
+        if index in carried:
+            swinging += own + mass * (place - common) @ (place - pivot)
+    return -swinging / whole
+
+
+def holding_torques(machine, pose, tip_load):
+    """Of the arm's drives [N m]: what a small turn of each joint lifts of the weight, less what the ground lifts at the
+    tip. `pose` has actuator_position, position and orientation."""
+
+    def energy(angles):
+        frames = machine.frames(angles, pose.position, pose.orientation)
+        return machine.weight * machine.centre_of_mass(frames)[2] - tip_load * machine.tip_point(frames)[2]
+
+    small = 1e-5
+    turns = small * np.eye(len(machine.home))[len(machine.crawlers) :]
+    angles = pose.actuator_position
+    return np.array([energy(angles + turn) - energy(angles - turn) for turn in turns]) / (2 * small)
+
+
 @dataclass
 class Footing:
     """Points of contact in the body frame with the friction they can bear and the belt they belong to."""
@@ -82,18 +118,21 @@ class Footing:
     belt: np.ndarray  # index of the belt, -1: none
 
 
-def on_crawlers(machine, mu, angles=None):
-    """The robot level on both crawlers."""
+def on_crawlers(machine, mu, angles=None, gravity=(0, 0, -GRAVITY)):
+    """The robot on both crawlers; `gravity` in its frame, with sideways components where the ground slopes."""
     points = np.vstack([machine.crawler_points(crawler) for crawler in (0, 1)])
     frames = machine.frames(machine.home if angles is None else angles)
-    carried = loads(points, machine.centre_of_mass(frames), machine.weight)
+    down = np.array(gravity) / -gravity[2]
+    centre = machine.centre_of_mass(frames)
+    carried = loads(points, centre + centre[2] * down, -machine.mass * gravity[2])  # as if it stood over where it leans
     return Footing(points, mu * carried, np.repeat([0, 1], 4))
 
 
-def least_power(footing, belt_speeds):
+def least_power(footing, belt_speeds, push=(0, 0, 0)):
     """Motion (vx, vy, yaw rate) that loses least power sum mu N |slip|, with the force that the ground takes from each
-    belt [N]. A belt whose speed is None turns freely and is found too. The sum is convex; Newton's method on it with
-    |slip| rounded off more and more finely."""
+    belt [N]. A belt whose speed is None turns freely and is found too. `push` (forces ahead and to the left [N], moment
+    about the origin [N m]) gives power. The sum is convex; Newton's method on it with |slip| rounded off more and more
+    finely."""
     free = [b for b, speed in enumerate(belt_speeds) if speed is None]
     n = len(footing.points)
     slip = np.zeros((n, 2, 3 + len(free)))  # slip velocity = slip @ unknowns - known
@@ -106,23 +145,24 @@ def least_power(footing, belt_speeds):
         elif belt >= 0:
             known[i, 0] = belt_speeds[belt]
     unknowns = np.zeros(3 + len(free))
+    given = np.concatenate([push, np.zeros(len(free))])
     for rounding in 10.0 ** np.arange(-1, -8, -0.5):
-        unknowns = _newton(unknowns, slip, known, footing.friction, rounding)
+        unknowns = _newton(unknowns, slip, known, footing.friction, given, rounding)
     velocity = slip @ unknowns - known
     force = footing.friction[:, None] * velocity / np.hypot(np.linalg.norm(velocity, axis=1), rounding)[:, None]
     pull = np.array([force[footing.belt == belt, 0].sum() for belt in range(len(belt_speeds))])
     return unknowns[:3], -pull
 
 
-def _newton(unknowns, slip, known, friction, rounding):
+def _newton(unknowns, slip, known, friction, given, rounding):
     def power(x):
-        return np.sum(friction * np.sqrt(np.sum((slip @ x - known) ** 2, axis=1) + rounding**2))
+        return np.sum(friction * np.sqrt(np.sum((slip @ x - known) ** 2, axis=1) + rounding**2)) - given @ x
 
     for _ in range(200):
         velocity = slip @ unknowns - known
         length = np.sqrt(np.sum(velocity**2, axis=1) + rounding**2)
         direction = velocity / length[:, None]
-        gradient = np.einsum("i,ij,ijk->k", friction, direction, slip)
+        gradient = np.einsum("i,ij,ijk->k", friction, direction, slip) - given
         bend = (np.eye(2) - direction[:, :, None] * direction[:, None, :]) * (friction / length)[:, None, None]
         step = -np.linalg.lstsq(np.einsum("ijk,ijl,ilm->km", slip, bend, slip), gradient, rcond=1e-14)[0]
         size = 1.0
