@@ -82,7 +82,7 @@ static bool find(const char *folder, const char *packages, const char *name, con
 const char *mesh_copy(struct reading *r, const char *name) {
     static const char folder[] = "robot_meshes/";
     char *copy = arena_take(&r->arena, sizeof folder + strlen(name), 1);
-    strcpy(copy, folder);
+    memcpy(copy, folder, sizeof folder);
     char *end = copy + strlen(folder);
     for (const char *c = name; *c != '\0'; c++) {
         *end++ = isalnum((unsigned char)*c) || *c == '.' || *c == '-' ? *c : '_';

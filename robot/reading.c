@@ -11,7 +11,7 @@
 /* What must be above 0 is not so only in double precision. */
 #define LEAST 1e-9
 
-enum { LINE_LENGTH = 1024, VALUE_LENGTH = 80 };
+enum { LINE_LENGTH = 1024, VALUE_LENGTH = 80, MOST_REMARKS = 1000 };
 
 /* Once round, and what rounding adds [rad]. */
 #define MOST_ANGLE (2 * 3.14159265358979323846 * 1.001)
@@ -31,6 +31,9 @@ static void *need(void *memory) {
 }
 
 static void add(struct remarks *remarks, unsigned long line, const char *text) {
+    if (remarks->count == MOST_REMARKS) { /* nobody reads more */
+        return;
+    }
     if (remarks->count == remarks->room) {
         remarks->room = 2 * remarks->room + 8;
         remarks->lines = need(realloc(remarks->lines, (size_t)remarks->room * sizeof *remarks->lines));

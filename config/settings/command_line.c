@@ -130,6 +130,35 @@ static command_line_result settle(command_line *line, const char *config, const 
     return resolved == COMMAND_LINE_RUN ? check(line) : resolved;
 }
 
+/* An option that is kept as it stands; false if it is none. */
+static bool take(command_line *line, int code) {
+    switch (code) {
+        case PACKAGES:
+            line->packages = optarg;
+            return true;
+        case LCM_URL:
+            line->lcm_url = optarg;
+            return true;
+        case OUT:
+            line->out = optarg;
+            return true;
+        case EVALUATE:
+            line->evaluate = optarg;
+            return true;
+        case LIST_MESHES:
+            line->list_meshes = true;
+            return true;
+        case RESUME:
+            line->resume = true;
+            return true;
+        case CHECK:
+            line->check = true;
+            return true;
+        default:
+            return false;
+    }
+}
+
 command_line_result command_line_parse(int argc, char **argv, command_line_program program, command_line *line) {
     struct option options[sizeof controller_options / sizeof controller_options[0]];
     memcpy(options, controller_options, sizeof options);
@@ -158,27 +187,6 @@ command_line_result command_line_parse(int argc, char **argv, command_line_progr
             case ROBOT:
                 robot = optarg;
                 break;
-            case PACKAGES:
-                line->packages = optarg;
-                break;
-            case LCM_URL:
-                line->lcm_url = optarg;
-                break;
-            case OUT:
-                line->out = optarg;
-                break;
-            case EVALUATE:
-                line->evaluate = optarg;
-                break;
-            case LIST_MESHES:
-                line->list_meshes = true;
-                break;
-            case RESUME:
-                line->resume = true;
-                break;
-            case CHECK:
-                line->check = true;
-                break;
             case PRINT_SETTINGS:
                 print_settings = true;
                 break;
@@ -191,9 +199,11 @@ command_line_result command_line_parse(int argc, char **argv, command_line_progr
             case VERSION:
                 printf("%s %s\n", program_name(program), LIMPHOME_VERSION);
                 return end_of_print();
-            default: /* getopt_long has said what is wrong */
-                fprintf(stderr, "try %s --help\n", program_name(program));
-                return COMMAND_LINE_BAD;
+            default:
+                if (!take(line, code)) { /* getopt_long has said what is wrong */
+                    fprintf(stderr, "try %s --help\n", program_name(program));
+                    return COMMAND_LINE_BAD;
+                }
         }
     }
     if (optind < argc) {
