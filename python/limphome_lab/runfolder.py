@@ -137,8 +137,8 @@ def existing(path, *needed):
 
 
 def ask(program, *options, tell=True):
-    """What a program prints that ends at once; with `tell`, its notices are told. Raises InputError with its words where
-    it refuses what it is given."""
+    """What a program prints that ends at once; with `tell`, its notices are told. Raises InputError with its words
+    where it refuses what it is given."""
     command = [paths.program(program), *map(str, options)]
     # file names need not be UTF-8
     result = subprocess.run(command, capture_output=True, text=True, errors="surrogateescape")
