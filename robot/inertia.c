@@ -114,7 +114,7 @@ void inertia_check(struct reading *r, const struct elements *e, const robot_desc
             continue; /* a sprocket that no link is */
         }
         body_moments(&robot->bodies[b], moments);
-        possible[b] = is_possible(moments);
+        possible[b] = is_sprocket(b) || is_possible(moments);
         if (!(moments[0] > 0) && possible[b]) {
             fault(r, e->links[e->moved[b]].at, NULL,
                   "has, with what is fixed to it, the principal moments %.3g, %.3g, %.3g kg m^2; needs <inertia>, all "

@@ -313,6 +313,17 @@ START_TEST(a_small_part_with_an_inertia_that_no_body_has_is_told_of) {
 }
 END_TEST
 
+/* Rotors seen through their gears. */
+START_TEST(drive_trains_may_have_any_inertia) {
+    read_edited("<mass value=\"1\"/><inertia ixx=\"2\" iyy=\"4\" izz=\"2\"",
+                "<mass value=\"1\"/><inertia ixx=\"0.01\" iyy=\"4\" izz=\"0.01\"");
+    edited_expect_good(&e);
+    ck_assert_int_eq(e.report.num_notices, 0);
+    ck_assert_double_eq(e.robot.bodies[1].inertia[1][1], 4);
+    edited_end(&e);
+}
+END_TEST
+
 START_TEST(unknown_elements_are_told_of) {
     read_edited("<inertial>", "<inertail/><inertial>");
     edited_expect_notice(&e, ":11: <link name=\"base\"> <inertail>: is no element of URDF");
@@ -333,6 +344,7 @@ int main(void) {
     tcase_add_test(cases, left_and_right_crawler_without_joints_are_told_apart);
     tcase_add_test(cases, contacts_may_be_excepted);
     tcase_add_test(cases, a_small_part_with_an_inertia_that_no_body_has_is_told_of);
+    tcase_add_test(cases, drive_trains_may_have_any_inertia);
     tcase_add_test(cases, unknown_elements_are_told_of);
     return run_suite("tools", cases);
 }
