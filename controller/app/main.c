@@ -5,12 +5,25 @@
 
 #include "command_line.h"
 #include "process.h"
+#include "robot_file.h"
 #include "run.h"
 
 static volatile sig_atomic_t stop;
 
 static void on_signal(int number) {
     stop = number;
+}
+
+/* Prints what the robot file needs besides; whether it could be read. */
+static bool list_meshes(const command_line *line) {
+    static robot_description robot;
+    robot_report report;
+    const bool good = robot_file_read(line->robot, line->packages, &robot, &report);
+    for (int i = 0; i < report.num_meshes; i++) {
+        printf("%s\t%s\n", report.meshes[i].copy, report.meshes[i].path);
+    }
+    robot_report_free(&report);
+    return good && fflush(stdout) == 0;
 }
 
 int main(int argc, char **argv) {
@@ -20,16 +33,23 @@ int main(int argc, char **argv) {
     if (result != COMMAND_LINE_RUN) {
         return result == COMMAND_LINE_DONE ? DONE : BAD_INPUT;
     }
-    static run r; /* too large for a comfortable stack frame */
+    if (line.list_meshes) {
+        return list_meshes(&line) ? DONE : BAD_INPUT;
+    }
+    static robot_description robot; /* both too large for a comfortable stack frame */
+    static run r;
+    if (!robot_file_load(line.robot, line.packages, &robot)) {
+        return BAD_INPUT;
+    }
     if (line.check) {
-        const bool good = run_check(&r, &line);
+        const bool good = run_check(&r, &line, &robot);
         if (!good) {
             fprintf(stderr, "%s\n", r.error);
         }
         return good ? DONE : BAD_INPUT;
     }
     process_end_on_signals(on_signal);
-    if (!run_open(&r, &line)) {
+    if (!run_open(&r, &line, &robot)) {
         fprintf(stderr, "%s\n", r.error);
         return BAD_INPUT;
     }

@@ -1,9 +1,7 @@
-// The robot as its URDF file describes it: rigid bodies, actuators and what may touch the ground.
-//
-// Links joined by fixed joints are merged, so there is one body per actuator and one for the base. Body 0 is the base;
-// actuator a moves body a + 1. The frame of a body is the URDF frame of the link its joint moves: x forward, y left,
-// z up when all joints are at 0.
+// The robot of a robot_description in Eigen's types, as the rooms of the simulator use it.
 #pragma once
+
+#include <robot_description.h>
 
 #include <Eigen/Geometry>
 #include <string>
@@ -13,12 +11,13 @@
 
 namespace limphome {
 
-constexpr int num_crawlers = 2;  // left, right
+constexpr int num_crawlers = ROBOT_CRAWLERS;  // left, right
 
-// Part of a body that may touch the ground. A radius of 0 is a point.
-struct Ball {
-    Eigen::Vector3d centre;  // in the frame of the body [m]
-    double radius;           // [m]
+// Part of a body that may touch the ground and, where `may_meet` says so, other bodies.
+struct Shape {
+    robot_shape_kind kind;
+    Eigen::Isometry3d pose;     // its middle, in the frame of the body
+    Eigen::Vector3d half_size;  // as of robot_shape [m]
 };
 
 struct Body {
@@ -29,7 +28,7 @@ struct Body {
     double mass = 0;                                          // [kg]
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();         // of mass, in this frame [m]
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();        // about the centre of mass, axes of this frame [kg m^2]
-    std::vector<Ball> balls;
+    std::vector<Shape> shapes;                                // its tips' balls first
 };
 
 struct Actuator {
@@ -52,14 +51,14 @@ struct Crawler {
 
 struct RobotModel {
     std::string name;
-    std::vector<Body> bodies;         // base, then one per actuator; each after its parent
-    std::vector<Actuator> actuators;  // left crawler, right crawler, arm joints from root to tip
-    std::vector<Crawler> crawlers;    // left, right
+    std::vector<Body> bodies;                                // base, then one per actuator; each after its parent
+    std::vector<Actuator> actuators;                         // left crawler, right crawler, arm joints from root to tip
+    std::vector<Crawler> crawlers;                           // left, right
+    bool may_meet[ROBOT_MAX_BODIES][ROBOT_MAX_BODIES] = {};  // as of robot_description
 
     double mass() const;  // [kg]
 };
 
-// Reads a URDF file with its <limphome> element. Throws std::runtime_error naming file and element.
-RobotModel read_robot(const std::string &path);
+RobotModel make_model(const robot_description &robot);
 
 }  // namespace limphome

@@ -22,22 +22,8 @@ static frame child_frame(const frame *parent, const lh_link *link, const float *
     return child;
 }
 
-/* Supports within `tolerance` of the lowest. */
-static void find_carrying(const lh_robot *robot, float tolerance, lh_posture *posture) {
-    float lowest = posture->supports[0].z;
-    for (int32_t i = 1; i < robot->num_supports; i++) {
-        lowest = posture->supports[i].z < lowest ? posture->supports[i].z : lowest;
-    }
-    for (int32_t i = 0; i < robot->num_supports; i++) {
-        if (posture->supports[i].z - lowest <= tolerance) {
-            posture->carrying[posture->num_carrying++] = i;
-        }
-    }
-}
-
-void lh_kinematics_posture(const lh_robot *robot, lh_quat attitude, const float *joint_angle, float tolerance,
-                           lh_posture *posture) {
-    *posture = (lh_posture){.num_carrying = 0};
+void lh_kinematics_posture(const lh_robot *robot, lh_quat attitude, const float *joint_angle, lh_posture *posture) {
+    *posture = (lh_posture){.centre_of_mass = {0.0f, 0.0f, 0.0f}};
     frame frames[LH_MAX_LINKS] = {{.rotation = attitude}};
     float mass = 0.0f;
     lh_vec3 moment = {0.0f, 0.0f, 0.0f};
@@ -56,5 +42,4 @@ void lh_kinematics_posture(const lh_robot *robot, lh_quat attitude, const float 
         posture->supports[i] = in_world(&frames[support->link], support->point);
         posture->supports[i].z -= support->radius;
     }
-    find_carrying(robot, tolerance, posture);
 }

@@ -1,12 +1,11 @@
-"""What a robot without inertia does, from the numbers of its URDF alone: loads by the lever rule, motion by the least
+"""What a robot without inertia does, from the numbers of its file alone: loads by the lever rule, motion by the least
 power lost to friction. Nothing here knows the simulator."""
 
-import xml.etree.ElementTree as xml
 from dataclasses import dataclass
 
 import numpy as np
 
-from limphome_lab import urdf
+from limphome_lab import robot
 
 GRAVITY = 9.81  # [m/s^2]
 LEVEL, ORIGIN = np.eye(3), np.zeros(3)  # a robot's axes and position as it starts, but for the heading
@@ -21,40 +20,21 @@ class Crawler:
 
 
 class Machine:
-    """Masses and points of contact of the robot in a URDF file."""
+    """Masses and points of contact of the robot in a file."""
 
     def __init__(self, path):
-        root = xml.parse(path).getroot()
-        self.robot = urdf.Robot(path)
-        self.inertials = {link.get("name"): self._inertial(link) for link in root.findall("link")}
-        self.inertia = {link.get("name"): self._inertia(link) for link in root.findall("link")}
-        self.mass = sum(mass for mass, _ in self.inertials.values())
+        self.robot = robot.read(path)
+        self.mass = sum(body["mass"] for body in self.robot.bodies)
         self.weight = self.mass * GRAVITY
-        extension = root.find("limphome")
         self.crawlers = [
-            Crawler(_numbers(e.get("xyz")), *(float(e.get(k)) for k in ("length", "width", "radius")))
-            for e in extension.findall("crawler")
+            Crawler(np.array(c["centre"]), c["length"], c["width"], c["radius"]) for c in self.robot.told["crawlers"]
         ]
-        self.arm_home = np.array([float(e.get("home")) for e in extension.findall("arm")])
-        self.home = np.concatenate([np.zeros(len(self.crawlers)), self.arm_home])
-        tip = extension.find("tip")
-        self.tip = (tip.get("link"), _numbers(tip.get("xyz")), float(tip.get("radius")))
-        sprocket = root.find("link[@name='right_sprocket']/inertial/inertia")
-        self.sprocket_inertia = float(sprocket.get("iyy"))
-
-    @staticmethod
-    def _inertial(link):
-        inertial = link.find("inertial")
-        origin = inertial.find("origin")
-        centre = np.zeros(3) if origin is None else _numbers(origin.get("xyz"))
-        return float(inertial.find("mass").get("value")), centre
-
-    @staticmethod
-    def _inertia(link):
-        """[3x3] about the link's centre of mass [kg m^2]."""
-        e = link.find("inertial/inertia")
-        xx, yy, zz, xy, xz, yz = (float(e.get(k)) for k in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz"))
-        return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        self.home = self.robot.home
+        self.arm_home = self.home[len(self.crawlers) :]
+        tip = self.robot.tips[0]
+        self.tip = (tip["body"], np.array(tip["point"]), tip["radius"])
+        sprocket = self.robot.bodies[1 + self.robot.crawlers.index("right_crawler")]
+        self.sprocket_inertia = np.array(sprocket["axis"]) @ sprocket["inertia"] @ sprocket["axis"]
 
     def all_rates(self, rates):
         """`rates` of the first actuators, and 0 for the others: (of the crawlers, of the arm)."""
@@ -62,11 +42,11 @@ class Machine:
         return rates[: len(self.crawlers)], rates[len(self.crawlers) :]
 
     def frames(self, angles, position=(0, 0, 0), orientation=(1, 0, 0, 0)):
-        return self.robot.link_frames(position, orientation, dict(zip(self.robot.actuators, angles, strict=True)))
+        return self.robot.frames(angles, position, orientation)
 
     def centre_of_mass(self, frames):
-        moment = sum(mass * _point(frames[link], centre) for link, (mass, centre) in self.inertials.items())
-        return moment / self.mass
+        bodies = zip(frames, self.robot.bodies, strict=True)
+        return sum(body["mass"] * robot.apply(frame, body["centre"]) for frame, body in bodies) / self.mass
 
     def crawler_points(self, crawler, axes=LEVEL, position=ORIGIN, sides=(0.5, -0.5)):
         """Lowest points of the edges round both ends of a belt, for a robot in this pose; sides as multiples of the
@@ -82,8 +62,8 @@ class Machine:
         return np.array(points) @ axes.T + position
 
     def tip_point(self, frames):
-        link, centre, radius = self.tip
-        return _point(frames[link], centre) - [0, 0, radius]
+        body, centre, radius = self.tip
+        return robot.apply(frames[body], centre) - [0, 0, radius]
 
 
 def loads(points, centre_of_mass, weight):
@@ -96,19 +76,21 @@ def loads(points, centre_of_mass, weight):
 def yaw_per_swing(machine, angles):
     """Turn of the base per turn of the first arm joint, about the vertical, with nothing to hold it: their angular
     momenta about the common centre of mass cancel."""
-    swing = next(joint for joint in machine.robot.joints if joint.name == machine.robot.arm[0])
+    bodies = machine.robot.bodies
+    first = 1 + len(machine.crawlers)  # the body that the first arm joint moves
     frames = machine.frames(angles)
-    common, pivot = machine.centre_of_mass(frames)[:2], frames[swing.child][:2, 3]
-    carried = {swing.child}
-    for joint in machine.robot.joints:  # parents come before their children in the file
-        if joint.parent in carried:
-            carried.add(joint.child)
+    common, pivot = machine.centre_of_mass(frames)[:2], frames[first][:2, 3]
+    carried = {first}
+    for index, body in enumerate(bodies):  # each after its parent
+        if body["parent"] in carried:
+            carried.add(index)
     whole = swinging = 0.0
-    for link, (mass, centre) in machine.inertials.items():
-        axes, place = frames[link][:3, :3], _point(frames[link], centre)[:2]
-        own = (axes @ machine.inertia[link] @ axes.T)[2, 2]
+    for index, body in enumerate(bodies):
+        axes, mass = frames[index][:3, :3], body["mass"]
+        place = robot.apply(frames[index], np.array(body["centre"]))[:2]
+        own = (axes @ np.array(body["inertia"]) @ axes.T)[2, 2]
         whole += own + mass * np.sum((place - common) ** 2)
-        if link in carried:
+        if index in carried:
             swinging += own + mass * (place - common) @ (place - pivot)
     return -swinging / whole
 
@@ -190,11 +172,3 @@ def _newton(unknowns, slip, known, friction, given, rounding):
         if np.abs(size * step).max() < 1e-13:
             break
     return unknowns
-
-
-def _numbers(text):
-    return np.array([float(word) for word in text.split()])
-
-
-def _point(frame, local):
-    return frame[:3, :3] @ local + frame[:3, 3]

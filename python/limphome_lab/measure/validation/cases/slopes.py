@@ -9,7 +9,7 @@ from limphome_lab.measure.validation import statics
 from limphome_lab.measure.validation.bisection import limit
 from limphome_lab.measure.validation.cases.quantity import MU, SPEED, G, Quantity
 from limphome_lab.measure.validation.robots import changed_robot, torque_limits
-from limphome_lab.urdf import rotation_about
+from limphome_lab.robot import rotation_about
 
 
 def rolling_down():

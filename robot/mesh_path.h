@@ -1,0 +1,16 @@
+/* Where the mesh lies that a robot file names. */
+#ifndef LIMPHOME_ROBOT_MESH_PATH_H
+#define LIMPHOME_ROBOT_MESH_PATH_H
+
+#include "reading.h"
+
+/* Where a copy of the mesh is looked for first, seen from the robot file's folder: so a robot file can be kept with its
+ * meshes. Below robot_meshes/, named as in the robot file, with _ for all but letters, digits, dots and minuses. */
+const char *mesh_copy(struct reading *r, const char *name);
+
+/* Path of the file that `name` stands for, or NULL if there is none: package:// and model:// names are looked for in
+ * the folders of r->packages, then in those above the robot file; file:// and plain names from the robot file's folder.
+ */
+const char *mesh_path(struct reading *r, const char *name);
+
+#endif
