@@ -35,14 +35,18 @@ std::vector<Eigen::Isometry3d> principal_frames(const RobotModel &model) {
 
 }  // namespace
 
-Robot::Robot(const RobotModel &model, double friction_crawler, double friction_arm)
+Robot::Robot(const RobotModel &model, const Frictions &frictions)
     : model_(model),
       principal_(principal_frames(model)),
       multibody_(static_cast<int>(model.actuators.size()), model.bodies[0].mass,
                  principal_inertia(model.bodies[0], principal_[0]), false, false) {
     build_links();
     for (int body = 0; body < static_cast<int>(model_.bodies.size()); body++) {
-        add_collider(body, friction_crawler, friction_arm);
+        add_collider(body, frictions);
+    }
+    for (const Solid &solid : model_.solids) {
+        const bool on_crawler = solid.crawler >= 0;
+        shapes_.push_back({on_crawler ? solid.crawler : solid.body - 1, on_crawler, frictions.body});
     }
 }
 
@@ -92,13 +96,13 @@ void Robot::add_crawler_edges(btCompoundShape &compound, int crawler, double fri
     }
 }
 
-void Robot::add_collider(int body, double friction_crawler, double friction_arm) {
+void Robot::add_collider(int body, const Frictions &frictions) {
     const auto index = static_cast<std::size_t>(body);
     auto compound = std::make_unique<btCompoundShape>();
     const int first_shape = static_cast<int>(shapes_.size());
     if (body == 0) {
         for (int crawler = 0; crawler < num_crawlers; crawler++) {
-            add_crawler_edges(*compound, crawler, friction_crawler);
+            add_crawler_edges(*compound, crawler, frictions.crawler);
         }
     }
     for (const Ball &ball : model_.bodies[index].balls) {
@@ -107,7 +111,7 @@ void Robot::add_collider(int body, double friction_crawler, double friction_arm)
         compound->addChildShape(to_bullet(principal_[index].inverse() * pose), sphere.get());
         geometry_.push_back(std::move(sphere));
         balls_.push_back({principal_[index].inverse() * ball.centre, ball.radius});
-        shapes_.push_back({body - 1, false, friction_arm});
+        shapes_.push_back({body - 1, false, frictions.arm});
     }
     if (compound->getNumChildShapes() == 0) {
         return;
@@ -138,10 +142,11 @@ void Robot::scale_friction(int crawler, double share) {
     }
 }
 
-Eigen::Isometry3d Robot::pose() const {
-    const btTransform base = multibody_.getBaseWorldTransform();
-    const Eigen::Isometry3d frame = Eigen::Translation3d(to_eigen(base.getOrigin())) * to_eigen(base.getRotation());
-    return frame * principal_[0].inverse();
+Eigen::Isometry3d Robot::body_frame(int body) const {
+    const btTransform link =
+        body == 0 ? multibody_.getBaseWorldTransform() : multibody_.getLink(body - 1).m_cachedWorldTransform;
+    const Eigen::Isometry3d frame = Eigen::Translation3d(to_eigen(link.getOrigin())) * to_eigen(link.getRotation());
+    return frame * principal_[static_cast<std::size_t>(body)].inverse();
 }
 
 void Robot::set_pose(const Eigen::Isometry3d &pose) {

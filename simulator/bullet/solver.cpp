@@ -9,6 +9,8 @@ namespace {
 
 // Sweeps end early once none of them changes a velocity by more than this [m/s, rad/s].
 constexpr double velocity_tolerance = 1e-7;
+// What a contact between two bodies gives way along its tangents at the least, as a share of what the ground does.
+constexpr double least_effect = 1e-6;
 
 }  // namespace
 
@@ -86,7 +88,10 @@ void Solver::prepare_contacts(const std::vector<Contact> &contacts, double time_
             contact.jacobian.bottomRows<max_dofs - dofs>().transpose().lazyProduct(velocity_.tail<max_dofs - dofs>());
         row.push = contact.depth > 0 ? share * contact.depth : contact.depth / time_step;
         row.normal_step = 1 / (row.effect(0, 0) + compliance_);
-        const Eigen::Matrix2d tangential = row.effect.bottomRightCorner<2, 2>();
+        Eigen::Matrix2d tangential = row.effect.bottomRightCorner<2, 2>();
+        if (contact.other != Touch::ground) {  // two bodies may have no joint that moves them along each other
+            tangential.diagonal().array() += least_effect * compliance_;
+        }
         row.tangents.sticking = tangential.inverse();
         const double mean = 0.5 * tangential.trace(), half = 0.5 * (tangential(0, 0) - tangential(1, 1));
         row.tangents.slip_step = 1 / (mean + std::sqrt(half * half + tangential(0, 1) * tangential(0, 1)));

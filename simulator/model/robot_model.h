@@ -5,7 +5,10 @@
 // z up when all joints are at 0.
 #pragma once
 
+#include <robot_solid.h>
+
 #include <Eigen/Geometry>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -19,6 +22,13 @@ constexpr int num_crawlers = 2;  // left, right
 struct Ball {
     Eigen::Vector3d centre;  // in the frame of the body [m]
     double radius;           // [m]
+};
+
+// Part of a body that may touch other bodies, or the belt of a crawler.
+struct Solid {
+    int body;
+    int crawler;        // whose belt it is; -1: of none
+    robot_solid shape;  // in the frame of the body
 };
 
 struct Body {
@@ -55,6 +65,9 @@ struct RobotModel {
     std::vector<Body> bodies;         // base, then one per actuator; each after its parent
     std::vector<Actuator> actuators;  // left crawler, right crawler, arm joints from root to tip
     std::vector<Crawler> crawlers;    // left, right
+    std::vector<Solid> solids;
+    // Contact between two bodies: symmetric.
+    std::array<std::array<bool, max_actuators + 1>, max_actuators + 1> may_meet{};
 
     double mass() const;  // [kg]
 };
