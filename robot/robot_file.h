@@ -29,6 +29,10 @@ void robot_report_free(robot_report *report);
  * report->num_faults is above 0. Either way `report` is filled and is to be freed. */
 bool robot_file_read(const char *path, const char *packages, robot_description *robot, robot_report *report);
 
+/* The same for a program: what is to be told goes to stderr, the faults or, of a robot that is accepted, the notices;
+ * 20 lines at most, and how many more there are. */
+bool robot_file_load(const char *path, const char *packages, robot_description *robot);
+
 #ifdef __cplusplus
 }
 #endif

@@ -27,6 +27,7 @@
 #include "bullet/world.h"
 #include "command_line.h"
 #include "model/robot_model.h"
+#include "robot_file.h"
 
 namespace limphome {
 namespace {
@@ -55,7 +56,7 @@ void print(const char *name, const double *values, int count) {
 
 class Instrument {
    public:
-    explicit Instrument(const command_line &line) : world_(read_robot(line.robot), line.settings) {}
+    explicit Instrument(const RobotModel &model, const settings &configuration) : world_(model, configuration) {}
 
     // One line of input. Throws std::invalid_argument if it is not understood.
     void obey(const std::string &line);
@@ -186,9 +187,13 @@ int main(int argc, char **argv) {
     if (result != COMMAND_LINE_RUN) {
         return result == COMMAND_LINE_DONE ? done : bad_input;
     }
+    robot_description robot;
+    if (!robot_file_load(line.robot, line.packages, &robot)) {
+        return bad_input;
+    }
     std::optional<limphome::Instrument> instrument;
     try {
-        instrument.emplace(line);
+        instrument.emplace(limphome::make_model(robot), line.settings);
     } catch (const std::exception &error) {
         std::fprintf(stderr, "%s\n", error.what());
         return bad_input;

@@ -11,6 +11,7 @@
 #include "plant/link.h"
 #include "plant/loop.h"
 #include "process.h"
+#include "robot_file.h"
 
 namespace {
 
@@ -31,11 +32,14 @@ int main(int argc, char **argv) {
     }
     process_end_on_signals(on_signal);
 
+    robot_description robot;
+    if (!robot_file_load(line.robot, line.packages, &robot)) {
+        return bad_input;
+    }
     std::optional<limphome::World> world;
     std::optional<limphome::Link> link;
     try {
-        const limphome::RobotModel model = limphome::read_robot(line.robot);
-        world.emplace(model, line.settings);
+        world.emplace(limphome::make_model(robot), line.settings);
         if (line.check) {
             return done;
         }

@@ -28,6 +28,7 @@
 #include "command_line.h"
 #include "model/random_stream.h"
 #include "model/robot_model.h"
+#include "robot_file.h"
 
 namespace limphome {
 namespace {
@@ -274,9 +275,13 @@ int main(int argc, char **argv) {
     if (result != COMMAND_LINE_RUN) {
         return result == COMMAND_LINE_DONE ? done : bad_input;
     }
+    robot_description robot;
+    if (!robot_file_load(line.robot, line.packages, &robot)) {
+        return bad_input;
+    }
     std::optional<limphome::Shooting> shooting;
     try {
-        shooting.emplace(limphome::read_robot(line.robot), line.settings);
+        shooting.emplace(limphome::make_model(robot), line.settings);
     } catch (const std::exception &error) {
         std::fprintf(stderr, "%s\n", error.what());
         return bad_input;

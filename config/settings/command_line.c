@@ -14,6 +14,7 @@ enum option_code {
     CONFIG = 256,
     SET,
     ROBOT,
+    PACKAGES,
     LCM_URL,
     OUT,
     EVALUATE,
@@ -30,6 +31,7 @@ static const struct option controller_options[] = {
     {"config", required_argument, NULL, CONFIG},
     {"set", required_argument, NULL, SET},
     {"robot", required_argument, NULL, ROBOT},
+    {"packages", required_argument, NULL, PACKAGES},
     {"lcm-url", required_argument, NULL, LCM_URL},
     {"check", no_argument, NULL, CHECK},
     {"help", no_argument, NULL, HELP},
@@ -41,12 +43,13 @@ static const struct option controller_options[] = {
     {"evaluate", required_argument, NULL, EVALUATE},
     {NULL, 0, NULL, 0},
 };
-enum { SHARED_OPTIONS = 9 };
+enum { SHARED_OPTIONS = 10 };
 
 static const char shared_help[] =
     "  --config FILE            settings of the experiment (INI); without it, the paper's\n"
     "  --set section.key=value  one setting, over those of the file; may be repeated\n"
     "  --robot FILE             the robot (URDF); default crawler.urdf\n"
+    "  --packages DIR[:DIR]     where package:// of the robot's meshes is looked for; then in the folders above FILE\n"
     "  --lcm-url URL            bus to talk on; default $LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0\n"
     "  --check                  read all that is given, tell what is wrong with it, and exit; nothing is written\n"
     "  --print-settings         print all settings as resolved, as an INI file, and exit\n"
@@ -150,6 +153,9 @@ command_line_result command_line_parse(int argc, char **argv, command_line_progr
                 break;
             case ROBOT:
                 robot = optarg;
+                break;
+            case PACKAGES:
+                line->packages = optarg;
                 break;
             case LCM_URL:
                 line->lcm_url = optarg;

@@ -14,6 +14,7 @@ extern "C" {
 typedef struct command_line {
     struct settings settings; /* as resolved: defaults, then --config, then each --set */
     const char *robot;        /* --robot, a URDF file; may point to own_robot */
+    const char *packages;     /* --packages, folders for package://, separated by ':', or NULL */
     const char *lcm_url;      /* --lcm-url; NULL: LCM's own default, which follows LCM_DEFAULT_URL */
     const char *out;          /* controller: --out, the run folder, or NULL */
     const char *evaluate;     /* controller: --evaluate, a policy file, or NULL */

@@ -5,6 +5,7 @@
 
 #include "command_line.h"
 #include "process.h"
+#include "robot_file.h"
 #include "run.h"
 
 static volatile sig_atomic_t stop;
@@ -20,16 +21,20 @@ int main(int argc, char **argv) {
     if (result != COMMAND_LINE_RUN) {
         return result == COMMAND_LINE_DONE ? DONE : BAD_INPUT;
     }
-    static run r; /* too large for a comfortable stack frame */
+    static robot_description robot; /* both too large for a comfortable stack frame */
+    static run r;
+    if (!robot_file_load(line.robot, line.packages, &robot)) {
+        return BAD_INPUT;
+    }
     if (line.check) {
-        const bool good = run_check(&r, &line);
+        const bool good = run_check(&r, &line, &robot);
         if (!good) {
             fprintf(stderr, "%s\n", r.error);
         }
         return good ? DONE : BAD_INPUT;
     }
     process_end_on_signals(on_signal);
-    if (!run_open(&r, &line)) {
+    if (!run_open(&r, &line, &robot)) {
         fprintf(stderr, "%s\n", r.error);
         return BAD_INPUT;
     }

@@ -5,10 +5,11 @@
 #include <string.h>
 
 #include "convert.h"
+#include "convert_robot.h"
 
 /* The settings that decide what is learned, and the robot. */
-static int64_t hash_of(const run *r) {
-    return (int64_t)(settings_hash(&r->settings) * 1099511628211u ^ r->robot.hash);
+static int64_t hash_of(const run *r, const robot_description *robot) {
+    return (int64_t)(settings_hash(&r->settings) * 1099511628211u ^ robot->hash);
 }
 
 /* An evaluation goes on from the episode after the policy's, so that T of (4) and what is drawn for an episode are
@@ -29,12 +30,12 @@ static bool open_policy(run *r, const char *path) {
     return true;
 }
 
-/* Reads what the run follows from: the robot, the settings that fit it, and what was learned before, if anything. */
-static bool read_inputs(run *r, const command_line *line, run_folder_place *place) {
+/* What the run follows from: the robot, the settings that fit it, and what was learned before, if anything. */
+static bool read_inputs(run *r, const command_line *line, const robot_description *robot, run_folder_place *place) {
     memset(r, 0, sizeof *r);
     r->settings = line->settings;
     r->last = (int32_t)r->settings.learning.episodes;
-    if (!urdf_read(&r->robot, line->robot, r->error)) {
+    if (!convert_robot(robot, &r->robot, r->error)) {
         return false;
     }
     r->config = convert_config(&r->settings);
@@ -42,7 +43,7 @@ static bool read_inputs(run *r, const command_line *line, run_folder_place *plac
     if (bad != LH_OK) {
         return fail_with(r->error, "settings: %s", lh_error_text(bad));
     }
-    r->hash = hash_of(r);
+    r->hash = hash_of(r, robot);
     r->evaluating = line->evaluate != NULL;
     const int32_t reset_every = r->config.task.episode.reset_every;
     if (line->resume && !run_folder_find(line->out, r->hash, reset_every, place, &r->learned, r->error)) {
@@ -53,19 +54,20 @@ static bool read_inputs(run *r, const command_line *line, run_folder_place *plac
     return !r->evaluating || open_policy(r, line->evaluate);
 }
 
-bool run_check(run *r, const command_line *line) {
+bool run_check(run *r, const command_line *line, const robot_description *robot) {
     run_folder_place place = {0};
-    const bool good = read_inputs(r, line, &place);
+    const bool good = read_inputs(r, line, robot, &place);
     if (good && line->resume) {
         printf("goes on after episode %" PRId32 "\n", place.episodes);
     }
     return good;
 }
 
-bool run_open(run *r, const command_line *line) {
+bool run_open(run *r, const command_line *line, const robot_description *robot) {
     run_folder_place place = {0};
-    if (!read_inputs(r, line, &place) || !plant_link_open(&r->link, line->lcm_url, &r->settings, &r->folder.recording,
-                                                          r->error)) { /* before there is a folder in the way */
+    if (!read_inputs(r, line, robot, &place) ||
+        !plant_link_open(&r->link, line->lcm_url, &r->settings, &r->folder.recording,
+                         r->error)) { /* before there is a folder in the way */
         return false;
     }
     if (!(line->resume ? run_folder_resume(&r->folder, line->out, &place, r->error)
@@ -97,8 +99,8 @@ static bool begin_learner(run *r, const limphome_robot_state_t *state) {
     const lh_controlled controlled = convert_controlled(state);
     r->config.learner.learn = !r->evaluating;
     r->config.learner.greedy = r->evaluating && r->settings.evaluation.selection == SETTINGS_GREEDY;
-    lh_error error = lh_controller_init(&r->controller, &r->config, &r->robot.robot, &controlled);
-    if (error == LH_OK && state->num_actuators != r->robot.robot.num_actuators) {
+    lh_error error = lh_controller_init(&r->controller, &r->config, &r->robot, &controlled);
+    if (error == LH_OK && state->num_actuators != r->robot.num_actuators) {
         error = LH_ERROR_STATE;
     }
     if (error != LH_OK) {

@@ -11,14 +11,14 @@
 #include "limphome/controller.h"
 #include "notice.h"
 #include "plant_link.h"
+#include "robot_description.h"
 #include "rollback.h"
 #include "run_folder.h"
 #include "trouble.h"
-#include "urdf.h"
 
 typedef struct run {
     settings settings;
-    urdf_robot robot;
+    lh_robot robot;
     lh_config config;
     int64_t hash; /* of settings and robot: what a resumed run must share */
     run_folder folder;
@@ -48,13 +48,13 @@ typedef struct run {
     notice restarts;
 } run;
 
-/* Reads all that a run follows from; of a run that is to be gone on with it prints after which episode it would be.
- * False, with the reason in r->error, if anything is wrong. Nothing is written. */
-bool run_check(run *r, const command_line *line);
+/* Reads all that a run of this robot follows from; of a run that is to be gone on with it prints after which episode it
+ * would be. False, with the reason in r->error, if anything is wrong. Nothing is written. */
+bool run_check(run *r, const command_line *line, const robot_description *robot);
 
-/* Reads the robot, joins the bus, reads policy or checkpoint and makes the run folder. False, with the reason in
+/* Joins the bus, reads policy or checkpoint and makes the run folder. False, with the reason in
  * r->error and nothing left open, if anything is wrong. */
-bool run_open(run *r, const command_line *line);
+bool run_open(run *r, const command_line *line, const robot_description *robot);
 
 /* Decides until all episodes are done (true), or something fails or *stop becomes non-zero (false). */
 bool run_decide(run *r, const volatile sig_atomic_t *stop);

@@ -8,6 +8,9 @@
 namespace limphome {
 namespace {
 
+// A tenth of the ground's deflection: drives at their limit press bodies together by less than a millimetre or so.
+constexpr double firmness_of_bodies = 10;
+
 using JacobianColumns = Eigen::Matrix<double, max_dofs, 3>;
 
 // Tangents: along and across the belt on a crawler, so that drives act on one of them only; else any.
@@ -79,8 +82,10 @@ void make_contact(const Robot &robot, const Ground &ground, const Touch &touch, 
     contact.jacobian = surface_jacobian(robot, shape, touch.normal, contact);
     if (on_ground) {
         contact.friction = shape.friction * ground.friction(touch.point);
+        contact.firmness = 1;
     } else {
         contact.friction = std::min(shape.friction, other.friction);
+        contact.firmness = firmness_of_bodies;
         contact.jacobian -= surface_jacobian(robot, other, -touch.normal, contact);
     }
 }

@@ -17,13 +17,14 @@ struct Contact {
     Eigen::Matrix3d frame;    // columns: normal from the other into the shape, two tangents
     double depth;             // of penetration; below 0: gap [m]
     double friction;          // Coulomb coefficient
+    double firmness;          // how much stiffer than the ground it is
     Eigen::Vector3d impulse;  // of the other on the shape along the columns of frame [N s]
     // Velocity of the shape's surface against the other's, along the columns of frame, per unit of each velocity.
     Eigen::Matrix<double, max_dofs, 3> jacobian;
 };
 
 // Ground under load: a spring and a damper at every point of contact. Without them the load on the many points of a
-// crawler would not be determined, and with it neither would friction. Bodies that touch each other give way alike.
+// crawler would not be determined, and with it neither would friction.
 struct GroundStiffness {
     double stiffness;  // [N/m]
     double damping;    // [N s/m]

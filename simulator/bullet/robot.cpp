@@ -1,6 +1,7 @@
 #include "bullet/robot.h"
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 #include "bullet/convert.h"
 
@@ -31,6 +32,29 @@ std::vector<Eigen::Isometry3d> principal_frames(const RobotModel &model) {
         frames.push_back(principal_frame(body));
     }
     return frames;
+}
+
+// A sphere touches as it is, a box at its corners, a cylinder at points of its rims.
+std::vector<Ball> balls_of(const Body &body) {
+    constexpr int rim_points = 16;
+    std::vector<Ball> balls;
+    for (const Shape &shape : body.shapes) {
+        if (shape.kind == ROBOT_SPHERE) {
+            balls.push_back({shape.pose.translation(), shape.half_size.x()});
+            continue;
+        }
+        const int points = shape.kind == ROBOT_BOX ? 4 : rim_points;
+        for (const double end : {-1.0, 1.0}) {
+            for (int i = 0; i < points; i++) {
+                const double angle = 2 * 3.14159265358979323846 * i / points;
+                const Eigen::Vector3d sign = shape.kind == ROBOT_BOX
+                                                 ? Eigen::Vector3d(2 * (i & 1) - 1, 2 * (i >> 1) - 1, end)
+                                                 : Eigen::Vector3d(std::cos(angle), std::sin(angle), end);
+                balls.push_back({shape.pose * sign.cwiseProduct(shape.half_size), 0.0});
+            }
+        }
+    }
+    return balls;
 }
 
 }  // namespace
@@ -105,7 +129,7 @@ void Robot::add_collider(int body, const Frictions &frictions) {
             add_crawler_edges(*compound, crawler, frictions.crawler);
         }
     }
-    for (const Ball &ball : model_.bodies[index].balls) {
+    for (const Ball &ball : balls_of(model_.bodies[index])) {
         auto sphere = std::make_unique<btSphereShape>(ball.radius);
         const Eigen::Isometry3d pose(Eigen::Translation3d(ball.centre));
         compound->addChildShape(to_bullet(principal_[index].inverse() * pose), sphere.get());

@@ -13,6 +13,12 @@
 
 namespace limphome {
 
+// Part of a body that may touch the ground. A radius of 0 is a point.
+struct Ball {
+    Eigen::Vector3d centre;  // [m]
+    double radius;           // [m]
+};
+
 // Something of the robot that touches the ground, in one point, or another of its bodies.
 struct ContactShape {
     int part;         // as ground_truth_t.contact_part: actuator whose link (or belt) it belongs to; -1: base

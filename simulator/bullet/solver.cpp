@@ -87,7 +87,8 @@ void Solver::prepare_contacts(const std::vector<Contact> &contacts, double time_
         row.steady =
             contact.jacobian.bottomRows<max_dofs - dofs>().transpose().lazyProduct(velocity_.tail<max_dofs - dofs>());
         row.push = contact.depth > 0 ? share * contact.depth : contact.depth / time_step;
-        row.normal_step = 1 / (row.effect(0, 0) + compliance_);
+        row.compliance = compliance_ / contact.firmness;
+        row.normal_step = 1 / (row.effect(0, 0) + row.compliance);
         Eigen::Matrix2d tangential = row.effect.bottomRightCorner<2, 2>();
         if (contact.other != Touch::ground) {  // two bodies may have no joint that moves them along each other
             tangential.diagonal().array() += least_effect * compliance_;
@@ -151,7 +152,7 @@ double Solver::relax(Contact &contact, const ContactRow &row) {
     relative += contact.jacobian.topRows<dofs>().transpose().lazyProduct(velocity_.head<dofs>());
     Eigen::Vector3d change;
     const double normal = std::max(
-        contact.impulse[0] + row.normal_step * (row.push - relative[0] - compliance_ * contact.impulse[0]), 0.0);
+        contact.impulse[0] + row.normal_step * (row.push - relative[0] - row.compliance * contact.impulse[0]), 0.0);
     change[0] = normal - contact.impulse[0];
     const Eigen::Vector2d slip = relative.tail<2>() + row.effect.block<2, 1>(1, 0) * change[0];
     const Eigen::Vector2d friction = contact.impulse.tail<2>();

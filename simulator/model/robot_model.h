@@ -1,14 +1,10 @@
-// The robot as its URDF file describes it: rigid bodies, actuators and what may touch the ground.
-//
-// Links joined by fixed joints are merged, so there is one body per actuator and one for the base. Body 0 is the base;
-// actuator a moves body a + 1. The frame of a body is the URDF frame of the link its joint moves: x forward, y left,
-// z up when all joints are at 0.
+// The robot of a robot_description in Eigen's types, as the rooms of the simulator use it.
 #pragma once
 
+#include <robot_description.h>
 #include <robot_solid.h>
 
 #include <Eigen/Geometry>
-#include <array>
 #include <string>
 #include <vector>
 
@@ -16,15 +12,16 @@
 
 namespace limphome {
 
-constexpr int num_crawlers = 2;  // left, right
+constexpr int num_crawlers = ROBOT_CRAWLERS;  // left, right
 
-// Part of a body that may touch the ground. A radius of 0 is a point.
-struct Ball {
-    Eigen::Vector3d centre;  // in the frame of the body [m]
-    double radius;           // [m]
+// Part of a body that may touch the ground.
+struct Shape {
+    robot_shape_kind kind;
+    Eigen::Isometry3d pose;     // its middle, in the frame of the body
+    Eigen::Vector3d half_size;  // as of robot_shape [m]
 };
 
-// Part of a body that may touch other bodies, or the belt of a crawler.
+// Part of a body that may touch other bodies where `may_meet` says so: a shape, or the belt of a crawler.
 struct Solid {
     int body;
     int crawler;        // whose belt it is; -1: of none
@@ -39,7 +36,7 @@ struct Body {
     double mass = 0;                                          // [kg]
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();         // of mass, in this frame [m]
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();        // about the centre of mass, axes of this frame [kg m^2]
-    std::vector<Ball> balls;
+    std::vector<Shape> shapes;                                // its tips' balls first
 };
 
 struct Actuator {
@@ -62,17 +59,15 @@ struct Crawler {
 
 struct RobotModel {
     std::string name;
-    std::vector<Body> bodies;         // base, then one per actuator; each after its parent
-    std::vector<Actuator> actuators;  // left crawler, right crawler, arm joints from root to tip
-    std::vector<Crawler> crawlers;    // left, right
-    std::vector<Solid> solids;
-    // Contact between two bodies: symmetric.
-    std::array<std::array<bool, max_actuators + 1>, max_actuators + 1> may_meet{};
+    std::vector<Body> bodies;                                // base, then one per actuator; each after its parent
+    std::vector<Actuator> actuators;                         // left crawler, right crawler, arm joints from root to tip
+    std::vector<Crawler> crawlers;                           // left, right
+    std::vector<Solid> solids;                               // shapes in the file's order, then the belts
+    bool may_meet[ROBOT_MAX_BODIES][ROBOT_MAX_BODIES] = {};  // as of robot_description
 
     double mass() const;  // [kg]
 };
 
-// Reads a URDF file with its <limphome> element. Throws std::runtime_error naming file and element.
-RobotModel read_robot(const std::string &path);
+RobotModel make_model(const robot_description &robot);
 
 }  // namespace limphome

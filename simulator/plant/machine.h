@@ -1,7 +1,7 @@
 // The machine: a robot with its sensors and drives, simulated or real, as the plant's loop sees it.
 //
 // A plant is a machine behind a loop (loop.h) and a link (link.h). The driver of a real robot links limphome_plant,
-// which needs neither Bullet nor Eigen nor urdfdom, derives a class from Machine and hands it to the loop:
+// which needs neither Bullet nor Eigen, derives a class from Machine and hands it to the loop:
 //
 //   MyRobot robot;
 //   limphome::Link link(url, settings, robot.num_actuators());

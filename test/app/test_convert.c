@@ -2,19 +2,17 @@
 #include <string.h>
 
 #include "convert.h"
+#include "robot_of.h"
 #include "suite.h"
-#include "urdf.h"
 
 static lh_controller controller; /* too large for a comfortable stack frame */
 
 static void make_controller(void) {
-    urdf_robot robot;
-    char error[ERROR_LENGTH] = "";
-    ck_assert_msg(urdf_read(&robot, CONFIG_DIR "/crawler.urdf", error), "%s", error);
+    const lh_robot robot = robot_of(CONFIG_DIR "/crawler.urdf");
     const settings s = settings_default();
     const lh_config config = convert_config(&s);
     const lh_controlled controlled = {.count = 4, .index = {1, 2, 3, 4}};
-    ck_assert_int_eq(lh_controller_init(&controller, &config, &robot.robot, &controlled), LH_OK);
+    ck_assert_int_eq(lh_controller_init(&controller, &config, &robot, &controlled), LH_OK);
 }
 
 START_TEST(default_settings_are_the_librarys_defaults) {

@@ -3,8 +3,8 @@
 
 #include "convert.h"
 #include "learned.h"
+#include "robot_of.h"
 #include "suite.h"
-#include "urdf.h"
 
 /* large for a stack frame */
 static lh_controller controller;
@@ -16,16 +16,15 @@ enum { KINDS = 2, DECISIONS = 40 };
 #define PERIOD 0.5F
 
 static void make_controller(int kind, const char *assignment) {
-    urdf_robot robot;
+    const lh_robot robot = robot_of(CONFIG_DIR "/crawler.urdf");
     char error[ERROR_LENGTH] = "";
-    ck_assert_msg(urdf_read(&robot, CONFIG_DIR "/crawler.urdf", error), "%s", error);
     settings s = settings_default();
     s.planner.sweeps = 0; /* slow, and the steps below change values too */
     ck_assert_msg(settings_set(&s, kinds[kind], error), "%s", error);
     ck_assert_msg(assignment == NULL || settings_set(&s, assignment, error), "%s", error);
     const lh_config config = convert_config(&s);
     const lh_controlled controlled = {.count = 4, .index = {1, 2, 3, 4}};
-    ck_assert_int_eq(lh_controller_init(&controller, &config, &robot.robot, &controlled), LH_OK);
+    ck_assert_int_eq(lh_controller_init(&controller, &config, &robot, &controlled), LH_OK);
 }
 
 /* A robot that moves as it is told, and turns a little with it. */

@@ -8,8 +8,7 @@ mkdir "$work/pkgconfig"
 for folder in $(pkg-config --variable pc_path pkg-config | tr : ' '); do
     find "$folder" -name '*.pc' -exec ln -sf {} "$work/pkgconfig" \; 2>/dev/null || true
 done
-rm "$work"/pkgconfig/bullet*.pc "$work/pkgconfig/urdfdom.pc" "$work/pkgconfig/eigen3.pc" \
-    "$work/pkgconfig/console_bridge.pc" "$work/pkgconfig/tinyxml.pc"
+rm "$work"/pkgconfig/bullet*.pc "$work/pkgconfig/eigen3.pc"
 export PKG_CONFIG_LIBDIR="$work/pkgconfig"
 
 configure() {

@@ -6,10 +6,11 @@
 #include <string.h>
 
 #include "convert.h"
+#include "convert_robot.h"
 #include "limphome_channels.h"
 #include "recording.h"
+#include "robot_file.h"
 #include "settings.h"
-#include "urdf.h"
 
 static FILE *create(const char *name) {
     FILE *file = fopen(name, "wb");
@@ -36,10 +37,9 @@ static recording_header make_header(const char *run, int32_t decisions) {
         fprintf(stderr, "%s\n", error);
         exit(1);
     }
-    urdf_robot robot;
+    robot_description robot;
     snprintf(path, sizeof path, "%s/robot.urdf", run);
-    if (!urdf_read(&robot, path, error)) {
-        fprintf(stderr, "%s\n", error);
+    if (!robot_file_load(path, NULL, &robot)) {
         exit(1);
     }
     recording_header header;
@@ -49,7 +49,10 @@ static recording_header make_header(const char *run, int32_t decisions) {
     header.decisions = decisions;
     header.config = convert_config(&s);
     header.config.learner.learn = true;
-    header.robot = robot.robot;
+    if (!convert_robot(&robot, &header.robot, error)) {
+        fprintf(stderr, "%s\n", error);
+        exit(1);
+    }
     return header;
 }
 

@@ -1,11 +1,13 @@
 // Robots, settings and measurements that the tests of the simulator share.
 #pragma once
 
+#include <robot_file.h>
 #include <settings.h>
 
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "bullet/sensors.h"
@@ -19,6 +21,19 @@ enum { left, right, swing, boom, arm };
 
 inline std::string robot_file() {
     return CONFIG_DIR "/crawler.urdf";
+}
+
+// Throws what reading found fault with, a line each.
+inline RobotModel read_robot(const std::string &path) {
+    robot_description robot;
+    robot_report report;
+    const bool good = robot_file_read(path.c_str(), nullptr, &robot, &report);
+    std::string faults;
+    for (int i = 0; i < report.num_faults; i++) {
+        faults += std::string(report.faults[i]) + "\n";
+    }
+    robot_report_free(&report);
+    return good ? make_model(robot) : throw std::runtime_error(faults);
 }
 
 inline RobotModel paper_robot() {

@@ -1,5 +1,5 @@
 // The loop and the link with a machine of a few lines, and a controller of a few lines on the same bus (memq://, which
-// stays in this process). This program links neither Bullet nor Eigen nor urdfdom.
+// stays in this process). This program links neither Bullet nor Eigen.
 #include "plant/loop.h"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,92 @@
+/* Links, joints and the extension as they stand in the file, names still unresolved but numbers read and checked one by
+ * one. What they are together is for tree.h and the files that follow it. */
+#ifndef LIMPHOME_ROBOT_ELEMENTS_H
+#define LIMPHOME_ROBOT_ELEMENTS_H
+
+#include "reading.h"
+#include "xml.h"
+
+enum { MOST_LINKS = 1024, MOST_JOINTS = 1024 };
+
+struct file_shape {
+    const struct xml_element *at; /* <collision> */
+    robot_shape_kind kind;
+    frame pose; /* in the frame of its link */
+    vector half_size;
+};
+
+struct file_link {
+    const struct xml_element *at;
+    const char *name;
+    double mass; /* 0: a frame without mass */
+    frame inertial;
+    matrix inertia; /* about the centre of mass, axes of `inertial` */
+    struct file_shape *shapes;
+    int num_shapes;
+
+    /* as found by tree_resolve and merge */
+    int joint; /* it hangs on, -1: none */
+    int body;
+    frame pose; /* in the frame of its body */
+};
+
+enum joint_type { JOINT_FIXED, JOINT_REVOLUTE, JOINT_CONTINUOUS, JOINT_PRISMATIC, JOINT_FLOATING, JOINT_PLANAR };
+
+struct file_joint {
+    const struct xml_element *at;
+    const char *name;
+    enum joint_type type;
+    const char *parent_name, *child_name;
+    frame origin;
+    vector axis; /* unit; zero where the type has none */
+    double lower, upper, effort, velocity;
+    const struct xml_element *mimic; /* or NULL */
+    double multiplier, offset;
+
+    int parent, child; /* links */
+    int actuator;      /* -1: none, it is fixed or held */
+    double home;       /* where it is held, or starts [rad, m] */
+};
+
+/* <crawler>, <arm>: an actuator. */
+struct file_actuator {
+    const struct xml_element *at;
+    bool crawler;
+    int joint;
+    double effort, velocity;      /* those of the extension, else of the joint */
+    double lower, upper;          /* arm */
+    vector centre;                /* crawler, in the frame of the joint's parent link */
+    double length, width, radius; /* crawler */
+};
+
+/* <tip>, <support> */
+struct file_support {
+    const struct xml_element *at;
+    int link;
+    vector point;
+    double radius;
+};
+
+struct elements {
+    const struct xml_element *robot, *extension;
+    struct file_link *links;
+    struct file_joint *joints;
+    struct file_actuator actuators[ROBOT_MAX_ACTUATORS]; /* crawlers first */
+    struct file_support supports[ROBOT_MAX_SUPPORTS];    /* tips first */
+    int num_links, num_joints, num_actuators, num_supports, num_tips;
+};
+
+/* The links and joints of <robot>. */
+void elements_read(struct reading *r, struct elements *e);
+
+/* The shapes of a link, <collision> kept and <visual> looked at for its numbers only. */
+void shapes_read(struct reading *r, struct file_link *link);
+
+/* <limphome>: which joints are actuators, what the robot stands on. Needs links and joints resolved (tree.h). */
+void extension_read(struct reading *r, struct elements *e);
+
+/* Index of the link or joint of that name, or -1. */
+int find_link(const struct elements *e, const char *name);
+int find_joint(const struct elements *e, const char *name);
+
+#endif

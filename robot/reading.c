@@ -1,0 +1,256 @@
+#include "reading.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "xml.h"
+
+enum { LINE_LENGTH = 1024, VALUE_LENGTH = 80 };
+
+/* Farther away, or larger, nothing of a robot is [m]. */
+#define LARGEST_COORDINATE 100.0
+
+struct remark {
+    unsigned long line;
+    char *text;
+};
+
+static void add(struct remarks *remarks, unsigned long line, const char *text) {
+    if (remarks->count == remarks->room) {
+        remarks->room = 2 * remarks->room + 8;
+        struct remark *more = realloc(remarks->lines, (size_t)remarks->room * sizeof *more);
+        if (more == NULL) {
+            fprintf(stderr, "out of memory\n");
+            abort();
+        }
+        remarks->lines = more;
+    }
+    char *copy = strdup(text);
+    if (copy == NULL) {
+        fprintf(stderr, "out of memory\n");
+        abort();
+    }
+    for (char *c = copy; *c != '\0'; c++) { /* names may hold anything; a remark is one line */
+        *c = (unsigned char)*c < ' ' ? ' ' : *c;
+    }
+    remarks->lines[remarks->count++] = (struct remark){line, copy};
+}
+
+__attribute__((format(printf, 2, 3))) static void append(char *text, const char *format, ...) {
+    const size_t length = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + length, LINE_LENGTH - length, format, arguments);
+    va_end(arguments);
+}
+
+static void append_element(char *text, const struct xml_element *e, const char *key) {
+    static const char *const identifying[] = {"name", "joint", "link", "filename"};
+    for (size_t i = 0; i < sizeof identifying / sizeof identifying[0] && key == NULL; i++) {
+        key = xml_attribute(e, identifying[i]) != NULL ? identifying[i] : NULL;
+    }
+    append(text, "<%.60s", e->name);
+    const char *value = key != NULL ? xml_attribute(e, key) : NULL;
+    if (value != NULL) {
+        append(text, " %.40s=\"%.*s%s\"", key, VALUE_LENGTH, value, strlen(value) > VALUE_LENGTH ? "..." : "");
+    }
+    append(text, ">");
+}
+
+/* The element that stands in <robot> and then, if it is another, the one in question. */
+static void append_place(char *text, const struct xml_element *e, const char *key) {
+    const struct xml_element *outer = e;
+    while (outer->parent != NULL && outer->parent->parent != NULL) {
+        outer = outer->parent;
+    }
+    if (outer != e) {
+        append_element(text, outer, NULL);
+        append(text, " ");
+    }
+    append_element(text, e, key);
+}
+
+static void add_at(struct reading *r, struct remarks *remarks, const struct xml_element *at, const char *key,
+                   const char *format, va_list arguments) {
+    char text[LINE_LENGTH];
+    snprintf(text, sizeof text, "%.300s:%lu: ", r->path, at->line);
+    append_place(text, at, key);
+    append(text, ": ");
+    const size_t length = strlen(text);
+    vsnprintf(text + length, sizeof text - length, format, arguments);
+    add(remarks, at->line, text);
+}
+
+void fault(struct reading *r, const struct xml_element *at, const char *key, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    add_at(r, &r->faults, at, key, format, arguments);
+    va_end(arguments);
+}
+
+void remark(struct reading *r, const struct xml_element *at, const char *key, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    add_at(r, &r->notices, at, key, format, arguments);
+    va_end(arguments);
+}
+
+void fault_in_line(struct reading *r, unsigned long line, const char *format, ...) {
+    char text[LINE_LENGTH];
+    int length = snprintf(text, sizeof text, "%.300s:", r->path);
+    if (line > 0) {
+        length += snprintf(text + length, sizeof text - (size_t)length, "%lu:", line);
+    }
+    text[length++] = ' ';
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + length, sizeof text - (size_t)length, format, arguments);
+    va_end(arguments);
+    add(&r->faults, line, text);
+}
+
+void note_mesh(struct reading *r, const struct xml_element *at, const char *mesh) {
+    add(&r->meshes, at->line, mesh);
+}
+
+/* In the order of the lines; what is of one line stays in its order. Few are out of order. */
+static char **texts_in_order(struct remarks *remarks, int *count) {
+    for (int i = 1; i < remarks->count; i++) {
+        for (int k = i; k > 0 && remarks->lines[k - 1].line > remarks->lines[k].line; k--) {
+            const struct remark later = remarks->lines[k - 1];
+            remarks->lines[k - 1] = remarks->lines[k];
+            remarks->lines[k] = later;
+        }
+    }
+    char **texts = calloc((size_t)remarks->count + 1, sizeof *texts);
+    if (texts == NULL) {
+        fprintf(stderr, "out of memory\n");
+        abort();
+    }
+    for (int i = 0; i < remarks->count; i++) {
+        texts[i] = remarks->lines[i].text;
+    }
+    *count = remarks->count;
+    free(remarks->lines);
+    *remarks = (struct remarks){0};
+    return texts;
+}
+
+void reading_report(struct reading *r, robot_report *report) {
+    report->faults = texts_in_order(&r->faults, &report->num_faults);
+    report->notices = texts_in_order(&r->notices, &report->num_notices);
+    report->meshes = texts_in_order(&r->meshes, &report->num_meshes);
+}
+
+const char *read_name(struct reading *r, const struct xml_element *at, const char *key) {
+    const char *name = xml_attribute(at, key);
+    if (name == NULL) {
+        fault(r, at, NULL, "needs %s=\"...\"", key);
+    } else if (name[0] == '\0') {
+        fault(r, at, key, "must not be empty");
+    }
+    return name == NULL ? "" : name;
+}
+
+/* The number that begins at *at, behind white space; *at goes on behind it. */
+static bool next_number(const char **at, double *number) {
+    static const char space[] = " \t\r\n", digits[] = "+-.0123456789eE";
+    *at += strspn(*at, space);
+    const size_t length = strcspn(*at, space);
+    char *end = NULL;
+    *number = strtod(*at, &end);
+    if (length == 0 || strspn(*at, digits) < length || end != *at + length || !isfinite(*number)) {
+        return false;
+    }
+    *at = end + strspn(end, space);
+    return true;
+}
+
+bool read_numbers(struct reading *r, const struct xml_element *at, const char *key, bool required, double *numbers,
+                  int count) {
+    const char *value = xml_attribute(at, key);
+    if (value == NULL) {
+        if (required) {
+            fault(r, at, NULL, "needs %s=\"...\"", key);
+        }
+        return false;
+    }
+    double read[6];
+    bool good = true;
+    const char *next = value;
+    for (int i = 0; i < count && good; i++) {
+        good = next_number(&next, &read[i]);
+    }
+    if (!good || next[0] != '\0') {
+        fault(r, at, key,
+              count == 1 ? "must be %d number, such as 0.5" : "must be %d numbers, such as 0.5, with spaces between",
+              count);
+        return false;
+    }
+    memcpy(numbers, read, (size_t)count * sizeof *numbers);
+    return true;
+}
+
+bool read_positive(struct reading *r, const struct xml_element *at, const char *key, bool required, double *number) {
+    double read = 0;
+    if (!read_numbers(r, at, key, required, &read, 1)) {
+        return false;
+    }
+    if (!(read > 0)) {
+        fault(r, at, key, "must be above 0");
+        return false;
+    }
+    *number = read;
+    return true;
+}
+
+bool read_not_negative(struct reading *r, const struct xml_element *at, const char *key, bool required,
+                       double *number) {
+    double read = 0;
+    if (!read_numbers(r, at, key, required, &read, 1)) {
+        return false;
+    }
+    if (!(read >= 0)) {
+        fault(r, at, key, "must not be negative");
+        return false;
+    }
+    *number = read;
+    return true;
+}
+
+bool read_vector(struct reading *r, const struct xml_element *at, const char *key, bool required, vector *v) {
+    double read[3];
+    if (!read_numbers(r, at, key, required, read, 3)) {
+        return false;
+    }
+    for (int i = 0; i < 3; i++) {
+        if (fabs(read[i]) > LARGEST_COORDINATE) {
+            fault(r, at, key, "must lie within %g m", LARGEST_COORDINATE);
+            return false;
+        }
+    }
+    *v = vector_of(read);
+    return true;
+}
+
+const struct xml_element *read_child(struct reading *r, const struct xml_element *at, const char *name) {
+    const struct xml_element *child = xml_child(at, name);
+    const struct xml_element *again = child != NULL ? xml_again(child) : NULL;
+    for (; again != NULL; again = xml_again(again)) {
+        fault(r, again, NULL, "is given twice, first in line %lu; once is allowed", child->line);
+    }
+    return child;
+}
+
+frame read_origin(struct reading *r, const struct xml_element *at) {
+    const struct xml_element *origin = read_child(r, at, "origin");
+    vector xyz = {0, 0, 0}, rpy = {0, 0, 0};
+    if (origin != NULL) {
+        read_vector(r, origin, "xyz", false, &xyz);
+        read_vector(r, origin, "rpy", false, &rpy);
+    }
+    return frame_from_rpy(xyz, rpy);
+}

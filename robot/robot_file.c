@@ -1,0 +1,88 @@
+#include "robot_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements.h"
+#include "merge.h"
+#include "stance.h"
+#include "tree.h"
+#include "xml.h"
+
+/* Contact between bodies that move against each other otherwise than about one joint. */
+static void allow_contacts(robot_description *robot) {
+    for (int a = 0; a < robot->num_bodies; a++) {
+        for (int b = 0; b < robot->num_bodies; b++) {
+            const bool sprocket = (a > 0 && a <= ROBOT_CRAWLERS) || (b > 0 && b <= ROBOT_CRAWLERS);
+            const bool adjacent = robot->bodies[a].parent == b || robot->bodies[b].parent == a;
+            robot->may_meet[a][b] = a != b && !sprocket && !adjacent;
+        }
+    }
+}
+
+/* What is found fault with element by element is told together; what follows from all of them only where they are
+ * good. */
+static void build(struct reading *r, struct elements *e, robot_description *robot) {
+    int *order = arena_take(&r->arena, MOST_LINKS, sizeof *order);
+    elements_read(r, e);
+    const bool is_tree = tree_resolve(r, e, order);
+    extension_read(r, e);
+    if (r->faults.count > 0 || !is_tree || !merge_links(r, e, order, robot)) {
+        return;
+    }
+    const char *name = xml_attribute(e->robot, "name");
+    snprintf(robot->name, sizeof robot->name, "%.*s", ROBOT_NAME_LENGTH - 1, name == NULL ? "" : name);
+    merge_parts(r, e, order, robot);
+    if (r->faults.count == 0 && stance_find(r, e, robot)) {
+        stance_add_supports(robot);
+        allow_contacts(robot);
+    }
+}
+
+bool robot_file_read(const char *path, const char *packages, robot_description *robot, robot_report *report) {
+    struct reading r = {.path = path, .packages = packages};
+    robot_description read;
+    memset(&read, 0, sizeof read); /* padding too: equal robots are equal bytes */
+    struct elements e = {.robot = xml_read(&r, &read.hash)};
+    if (e.robot != NULL) {
+        build(&r, &e, &read);
+    }
+    reading_report(&r, report);
+    arena_free(&r.arena);
+    if (report->num_faults > 0) {
+        return false;
+    }
+    *robot = read;
+    return true;
+}
+
+bool robot_file_load(const char *path, const char *packages, robot_description *robot) {
+    enum { MOST_LINES = 20 };
+    robot_report report;
+    const bool good = robot_file_read(path, packages, robot, &report);
+    char *const *lines = good ? report.notices : report.faults;
+    const int count = good ? report.num_notices : report.num_faults;
+    for (int i = 0; i < count && i < MOST_LINES; i++) {
+        fprintf(stderr, "%s\n", lines[i]);
+    }
+    if (count > MOST_LINES) {
+        fprintf(stderr, "%s: and %d more\n", path, count - MOST_LINES);
+    }
+    robot_report_free(&report);
+    return good;
+}
+
+static void free_lines(char **lines, int count) {
+    for (int i = 0; i < count; i++) {
+        free(lines[i]);
+    }
+    free(lines);
+}
+
+void robot_report_free(robot_report *report) {
+    free_lines(report->faults, report->num_faults);
+    free_lines(report->notices, report->num_notices);
+    free_lines(report->meshes, report->num_meshes);
+    *report = (robot_report){0};
+}
