@@ -110,8 +110,7 @@ static void try_direction(search *s, const double direction[3], robot_meeting me
     const double along = dot(s->between, direction);
     const double scale = (along < 0 ? -1 : 1) / sqrt(square);
     const double normal[3] = {scale * direction[0], scale * direction[1], scale * direction[2]};
-    const double distance =
-        scale * along - robot_solid_half_width(s->a, normal) - robot_solid_half_width(s->b, normal);
+    const double distance = scale * along - robot_solid_half_width(s->a, normal) - robot_solid_half_width(s->b, normal);
     if (distance > s->best.distance + least_gain[meeting]) {
         s->best.distance = distance;
         memcpy(s->best.normal, normal, sizeof normal);
@@ -184,7 +183,8 @@ static void try_across(search *s, const robot_solid *solid, const double v[3]) {
     }
 }
 
-/* From one to the other where they are nearest, which is where projecting back and forth comes to rest (von Neumann). */
+/* From one to the other where they are nearest, which is where projecting back and forth comes to rest (von Neumann).
+ */
 static void try_nearest_points(search *s, double share) {
     const robot_solid a = shrunk(s->a, share), b = shrunk(s->b, share);
     double on_a[3], on_b[3], to_a[3];

@@ -1,10 +1,10 @@
-/* Solids: what shapes and belts are in space, and how far two of them are apart. Both programs' checks of a robot file and
- * the simulator's contacts build on it; the controller's monitor has the same in single precision
+/* Solids: what shapes and belts are in space, and how far two of them are apart. Both programs' checks of a robot file
+ * and the simulator's contacts build on it; the controller's monitor has the same in single precision
  * (controller/limphome/safety/solid.h).
  *
  * A solid is a box, rounded by a ball or by a disc: all points at most `radius` away from the box, in any direction or
- * only across axis 2. Box: radius 0. Sphere: half sizes 0 and a ball. Cylinder: only half size 2, and a disc. Belt: flat
- * between the middles of its ends, and a disc across its sprocket. */
+ * only across axis 2. Box: radius 0. Sphere: half sizes 0 and a ball. Cylinder: only half size 2, and a disc. Belt:
+ * flat between the middles of its ends, and a disc across its sprocket. */
 #ifndef LIMPHOME_ROBOT_SOLID_H
 #define LIMPHOME_ROBOT_SOLID_H
 

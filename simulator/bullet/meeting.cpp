@@ -109,7 +109,7 @@ void meet_face(const robot_solid &solid, int face, const Vector3d &outwards, con
     const double height = outwards.dot(centre_of(solid)) + half_width(solid, outwards);
     Polygon polygon = face_towards(other, -outwards);
     for (const int along : {(face + 1) % 3, (face + 2) % 3}) {
-        const double half = half_face(solid, face, along) + same_point;
+        const double half = half_face(solid, face, along) + 0.1 * same_point;
         const Vector3d side = axis_of(solid, along);
         const double middle = side.dot(centre_of(solid));
         polygon = cut(polygon, side, middle + half);
