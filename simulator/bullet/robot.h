@@ -67,6 +67,9 @@ class Robot {
     void set_pose(const Eigen::Isometry3d &pose);
     // Brings link frames and colliders into line with pose and joint angles.
     void update_frames();
+    // Likewise what of the base may touch the ground beside the crawlers, of which Bullet does not know that it moves.
+    // It is apart, as it is seldom near.
+    void place_hull();
 
     Eigen::Vector3d centre_of_mass() const;
     Eigen::Vector3d centre_of_mass_velocity() const;
@@ -79,7 +82,9 @@ class Robot {
 
    private:
     void build_links();
-    void add_collider(int body, const Frictions &frictions);
+    btMultiBodyLinkCollider &add_collider(int body, std::unique_ptr<btCompoundShape> compound, int first_shape);
+    void add_crawlers(double friction);
+    void add_balls(int body, double friction);
     void add_crawler_edges(btCompoundShape &compound, int crawler, double friction);
 
     RobotModel model_;
@@ -87,6 +92,7 @@ class Robot {
     btMultiBody multibody_;
     std::vector<std::unique_ptr<btCollisionShape>> geometry_;
     std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
+    btMultiBodyLinkCollider *hull_ = nullptr;
     std::vector<ContactShape> shapes_;
     std::vector<Rim> rims_;
     std::vector<Ball> balls_;  // after the rims among the shapes; in the frames of Bullet's links

@@ -177,6 +177,7 @@ void Scene::step() {
     for (int i = 0; i < dispatcher_.getNumManifolds(); i++) {
         dispatcher_.getManifoldByIndexInternal(i)->clearManifold();
     }
+    robot.place_hull();
     pipeline_.stepSimulation(time_step_, 0);
     for (std::size_t a = 0; a < drives.size(); a++) {
         drives[a].end_step(pipeline_.joints[a], multibody.getJointVel(static_cast<int>(a)));
