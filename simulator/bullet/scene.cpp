@@ -11,7 +11,8 @@ constexpr double static_deflection = 1e-3;    // of the ground under the robot's
 constexpr double start_heading = 0.5 * M_PI;  // [rad]
 constexpr double settling_time = 0.5;         // [s]
 constexpr double longest_settling = 10;       // on uneven ground [s]
-constexpr double at_rest = 1e-4;              // [m/s, rad/s]
+constexpr double watched = 0.1;               // for so long, until it stays where it is [s]
+constexpr double at_rest = 1e-4;              // at the mean over that time [m/s, rad/s]
 constexpr int ground_group = 1, robot_group = 2;
 
 // Critically damped at the deflection above, so that the robot does not bounce.
@@ -122,33 +123,74 @@ void Scene::place() {
     robot.set_pose(pose);
 }
 
-// Keeps a robot that sinks in from sliding or turning away.
+// Where the ground carries the robot [m].
+Eigen::Vector3d Scene::centre_of_pressure() const {
+    Eigen::Vector3d moment(0, 0, 0);
+    double load = 0;
+    for (const Contact &contact : pipeline_.contacts) {
+        moment += contact.impulse[0] * contact.point;
+        load += contact.impulse[0];
+    }
+    return load > 0 ? Eigen::Vector3d(moment / load) : robot.pose().translation();
+}
+
+// Keeps a robot that sinks in from sliding or turning away. What slides is told by where it is carried: the frame of
+// the body moves along the ground as it tilts, too, and without that friction would brake the tilting for seconds.
 void Scene::hold_in_place() {
-    Eigen::Isometry3d pose = robot.pose();
-    pose.translation().head<2>().setZero();
-    const double turned = std::atan2(pose(1, 0), pose(0, 0)) - start_heading;
-    pose.linear() = Eigen::AngleAxisd(-turned, Eigen::Vector3d::UnitZ()) * pose.linear();
-    robot.set_pose(pose);
+    const Eigen::Vector3d up = ground_.incline();
     btMultiBody &body = robot.multibody();
-    body.setBaseVel(btVector3(0, 0, body.getBaseVel().z()));
-    body.setBaseOmega(btVector3(body.getBaseOmega().x(), body.getBaseOmega().y(), 0));
+    const Eigen::Vector3d turning = to_eigen(body.getBaseOmega()), velocity = to_eigen(body.getBaseVel());
+    const Eigen::Vector3d arm = centre_of_pressure() - to_eigen(body.getBasePos());
+    const Eigen::Vector3d tilting = turning - up.dot(turning) * up;
+    const Eigen::Vector3d sliding = velocity + tilting.cross(arm);
+    body.setBaseOmega(to_bullet(tilting));
+    body.setBaseVel(to_bullet(velocity - (sliding - up.dot(sliding) * up)));
+
+    Eigen::Isometry3d pose = robot.pose();
+    pose.translation() = Eigen::Vector3d(0, 0, pose.translation().dot(up) / up.z());
+    const double turned = std::atan2(pose(1, 0), pose(0, 0)) - start_heading;
+    pose.linear() = Eigen::AngleAxisd(-turned, up) * pose.linear();
+    robot.set_pose(pose);
 }
 
-bool Scene::rests() const {
+double Scene::kinetic_energy() const {
     const btMultiBody &body = robot.multibody();
-    return body.getBaseVel().length() < at_rest && body.getBaseOmega().length() < at_rest;
+    GeneralVector velocity = GeneralVector::Zero();
+    const int dofs = base_dofs + body.getNumDofs();
+    velocity.head(dofs) = Eigen::Map<const Eigen::VectorXd>(body.getVelocityVector(), dofs);
+    return 0.5 * velocity.dot(mass_matrix(body) * velocity);
 }
 
-// Lets the robot sink in to its equilibrium, then puts it at the origin, at rest.
-void Scene::settle() {
-    for (double time = 0; time < settling_time || !(ground_.level() || rests() || time >= longest_settling);
-         time += time_step_) {
+// Lets the robot sink in for so long [s]. On uneven ground it rocks over bumps, which hardly anything damps: it is
+// stopped where it is fastest, as it passes its equilibrium there.
+void Scene::sink_in(double duration) {
+    double energy = 0;
+    for (double time = 0; time < duration; time += time_step_) {
         for (Contact &contact : pipeline_.contacts) {
             contact.impulse.tail<2>().setZero();  // locks no friction in between the points of contact
         }
         step();
-        if (!ground_.level()) {
-            hold_in_place();
+        if (ground_.level()) {
+            continue;
+        }
+        hold_in_place();
+        const double before = energy;
+        energy = kinetic_energy();
+        if (energy < before) {
+            robot.multibody().clearVelocities();
+            energy = 0;
+        }
+    }
+}
+
+// Lets the robot come to its equilibrium, then puts it at the origin, at rest.
+void Scene::settle() {
+    sink_in(ground_.level() ? settling_time : settling_time - watched);
+    for (double time = settling_time; !ground_.level() && time < longest_settling; time += watched) {
+        const Eigen::Isometry3d before = robot.pose();
+        sink_in(watched);
+        if ((robot.pose().matrix() - before.matrix()).norm() < at_rest * watched) {
+            break;
         }
     }
     robot.multibody().clearVelocities();

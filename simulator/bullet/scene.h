@@ -63,8 +63,10 @@ class Scene {
    private:
     void place();
     void settle();
+    void sink_in(double duration);
+    Eigen::Vector3d centre_of_pressure() const;
     void hold_in_place();
-    bool rests() const;
+    double kinetic_energy() const;
 
     btDefaultCollisionConfiguration configuration_;
     btCollisionDispatcher dispatcher_;

@@ -1,6 +1,5 @@
 #include "model/ground.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "model/random_stream.h"
@@ -10,10 +9,12 @@ namespace {
 
 constexpr double edge_radius = 0.03;  // of steps [m]
 
-std::vector<double> draw(RandomStream stream, double low, double high) {
-    std::vector<double> values(std::size_t{Lattice::size} * Lattice::size);
-    std::generate(values.begin(), values.end(), [&] { return stream.uniform(low, high); });
-    return values;
+// A bijection in which each bit of the input changes each bit of the output as often as not (Stafford 2011, variant
+// 13).
+uint64_t scatter(uint64_t x) {
+    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ x >> 27) * 0x94d049bb133111ebU;
+    return x ^ x >> 31;
 }
 
 // Weights of four nodes in a row, and their derivatives, at the share `t` of the way from the second to the third.
@@ -28,29 +29,38 @@ Eigen::Vector4d weight_rates(double t) {
 
 }  // namespace
 
-double Lattice::at(long column, long row) const {
-    return values_[static_cast<std::size_t>((row & (size - 1)) * size + (column & (size - 1)))];
+// Large odd factors give each node a word of its own.
+double Lattice::at(int64_t column, int64_t row) const {
+    const uint64_t node =
+        0x9e3779b97f4a7c15U * static_cast<uint64_t>(column) + 0xd1342543de82ef95U * static_cast<uint64_t>(row);
+    return low_ + step_ * static_cast<double>(scatter(key_ ^ node) >> 11);
+}
+
+const Eigen::Matrix4d &Lattice::around(int64_t column, int64_t row) const {
+    Window &window = windows_[static_cast<std::size_t>((row & (side - 1)) * side + (column & (side - 1)))];
+    if (window.column != column || window.row != row) {
+        window.column = column;
+        window.row = row;
+        for (int j = 0; j < 4; j++) {
+            for (int i = 0; i < 4; i++) {
+                window.nodes(i, j) = at(column + i - 1, row + j - 1);
+            }
+        }
+    }
+    return window.nodes;
 }
 
 Eigen::Vector3d Lattice::smooth(double x, double y) const {
     const double column = std::floor(x / spacing_), row = std::floor(y / spacing_);
     const double tx = x / spacing_ - column, ty = y / spacing_ - row;
-    const Eigen::Vector4d across = weights(tx), across_rate = weight_rates(tx);
-    const Eigen::Vector4d along = weights(ty), along_rate = weight_rates(ty);
-    Eigen::Vector3d sum(0, 0, 0);
-    for (int j = 0; j < 4; j++) {
-        Eigen::Vector4d nodes;
-        for (int i = 0; i < 4; i++) {
-            nodes[i] = at(static_cast<long>(column) + i - 1, static_cast<long>(row) + j - 1);
-        }
-        const double value = across.dot(nodes);
-        sum += Eigen::Vector3d(along[j] * value, along[j] * across_rate.dot(nodes), along_rate[j] * value);
-    }
-    return {sum[0], sum[1] / spacing_, sum[2] / spacing_};
+    const Eigen::Matrix4d &nodes = around(static_cast<int64_t>(column), static_cast<int64_t>(row));
+    const Eigen::Vector4d along = weights(ty), sums = nodes * along;
+    const Eigen::Vector4d across = weights(tx);
+    return {across.dot(sums), weight_rates(tx).dot(sums) / spacing_, across.dot(nodes * weight_rates(ty)) / spacing_};
 }
 
 double Lattice::cell(double x, double y) const {
-    return at(std::lround(std::floor(x / spacing_)), std::lround(std::floor(y / spacing_)));
+    return at(static_cast<int64_t>(std::floor(x / spacing_)), static_cast<int64_t>(std::floor(y / spacing_)));
 }
 
 Ground::Ground(const settings &s)
@@ -64,10 +74,9 @@ Ground::Ground(const settings &s)
       patched_(s.ground.patch_share > 0),
       patch_share_(s.ground.patch_share),
       patch_friction_(s.ground.patch_friction),
-      bumps_(draw(RandomStream(s.ground.seed, Purpose::rough_ground), -s.ground.rough_amplitude_m,
-                  s.ground.rough_amplitude_m),
-             0.5 * s.ground.rough_wavelength_m),
-      patches_(draw(RandomStream(s.ground.seed, Purpose::patches), 0, 1), s.ground.patch_size_m) {}
+      bumps_(RandomStream(s.ground.seed, Purpose::rough_ground).bits(), -s.ground.rough_amplitude_m,
+             s.ground.rough_amplitude_m, 0.5 * s.ground.rough_wavelength_m),
+      patches_(RandomStream(s.ground.seed, Purpose::patches).bits(), 0, 1, s.ground.patch_size_m) {}
 
 Eigen::Vector3d Ground::incline() const {
     return Eigen::Vector3d(-slope_.x(), -slope_.y(), 1).normalized();

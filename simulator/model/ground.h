@@ -5,29 +5,41 @@
 #include <settings.h>
 
 #include <Eigen/Core>
-#include <vector>
+#include <array>
+#include <cstdint>
+#include <limits>
 
 namespace limphome {
 
 constexpr double standard_gravity = 9.81;  // [m/s^2]
 
-// Values drawn from a seed at the nodes of a square lattice, which is repeated for ever.
+// Random values, uniform from `low` to below `high`, at the nodes of a square lattice without end. Each follows from
+// the key and its node alone, so none is kept and nothing repeats itself.
 class Lattice {
    public:
-    Lattice(const std::vector<double> &values, double spacing) : values_(values), spacing_(spacing) {}
+    Lattice(uint64_t key, double low, double high, double spacing)
+        : key_(key), low_(low), step_((high - low) * 0x1p-53), spacing_(spacing) {}
 
     // Value and its derivatives along x and y, of the uniform cubic B-spline of the values: smooth, and within them.
     Eigen::Vector3d smooth(double x, double y) const;
     // Value of the cell that (x, y) lies in.
     double cell(double x, double y) const;
 
-    static constexpr int size = 64;  // nodes along each side
-
    private:
-    double at(long column, long row) const;
+    // The nodes on which the spline depends from (column, row) to the next ones.
+    struct Window {
+        int64_t column = std::numeric_limits<int64_t>::min(), row = 0;
+        Eigen::Matrix4d nodes;
+    };
+    static constexpr int64_t side = 8;
 
-    std::vector<double> values_;
-    double spacing_;  // [m]
+    double at(int64_t column, int64_t row) const;
+    const Eigen::Matrix4d &around(int64_t column, int64_t row) const;
+
+    uint64_t key_;
+    double low_, step_;
+    double spacing_;                                   // [m]
+    mutable std::array<Window, side * side> windows_;  // looked at last, to be quick; not for two threads at once
 };
 
 // A point against the ground.

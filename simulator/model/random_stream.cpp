@@ -17,7 +17,7 @@ RandomStream::RandomStream(int64_t seed, Purpose purpose, int64_t episode)
 
 double RandomStream::uniform(double low, double high) {
     constexpr double unit = 0x1p-53;
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * unit);
+    return low + (high - low) * (static_cast<double>(bits() >> 11) * unit);
 }
 
 // Box and Muller's.

@@ -21,6 +21,7 @@ class RandomStream {
    public:
     RandomStream(int64_t seed, Purpose purpose, int64_t episode = 0);
 
+    uint64_t bits() { return engine_(); }     // 64, each 0 or 1 alike
     double uniform(double low, double high);  // low <= result < high
     double normal();                          // mean 0, standard deviation 1
 

@@ -204,6 +204,26 @@ TEST(Terrain, ResetStandsOnTheSameGround) {
     EXPECT_EQ(position(used), position(fresh));
 }
 
+// Attitude and place at the start are those in which the brakes keep it.
+TEST(Terrain, RobotStartsWhereItStays) {
+    settings combined = rough(0.08, 1);
+    combined.ground.incline_along_rad = 8 * degree;
+    combined.ground.step_height_m = 0.1;
+    combined.ground.step_spacing_m = 0.6;
+    combined.ground.patch_share = 0.2;
+    for (settings s : {rough(0.2, 1), combined}) {
+        for (int64_t seed = 1; seed <= 20; seed++) {
+            s.ground.seed = seed;
+            World world(paper_robot(), s);
+            const Eigen::Isometry3d start = world.robot().pose();
+            run(world, {}, 1);
+            const Eigen::Isometry3d end = world.robot().pose();
+            EXPECT_LT((end.translation() - start.translation()).norm(), 1e-3) << "seed " << seed;
+            EXPECT_LT(Eigen::AngleAxisd(start.linear().transpose() * end.linear()).angle(), 2e-3) << "seed " << seed;
+        }
+    }
+}
+
 TEST(Terrain, LooseGroundGivesLessTraction) {
     settings s = sound();
     s.ground.patch_share = 1;

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "laboratory.h"
 
@@ -76,6 +78,72 @@ TEST(Ground, IsTheSameFromTheSameSeed) {
         difference = std::max(difference, std::abs(one.height(0.3 * i, i) - other.height(0.3 * i, i)));
     }
     EXPECT_GT(difference, 0.03);
+}
+
+TEST(Ground, RoughGroundIsUniformAtTheNodesAndNeighboursAreIndependent) {
+    const Lattice lattice(12345, -1, 1, 0.5);
+    constexpr int side = 300;
+    constexpr double count = 1.0 * side * side;
+    double mean = 0, square = 0, beside = 0, above = 0, across = 0;
+    std::array<int, 10> tenths{};
+    for (int i = -side / 2; i < side / 2; i++) {
+        for (int j = -side / 2; j < side / 2; j++) {
+            const auto node = [&](int column, int row) { return lattice.cell(0.5 * column + 0.25, 0.5 * row + 0.25); };
+            const double value = node(i, j);
+            mean += value / count;
+            square += value * value / count;
+            beside += value * node(i + 1, j) / count;
+            above += value * node(i, j + 1) / count;
+            across += value * node(i + 1, j - 1) / count;
+            tenths.at(static_cast<std::size_t>(5 + std::floor(5 * value)))++;
+        }
+    }
+    const double error = 1 / std::sqrt(count);
+    EXPECT_NEAR(mean, 0, 4 * error / std::sqrt(3));
+    EXPECT_NEAR(square, 1.0 / 3, 4 * error * std::sqrt(4.0 / 45));
+    for (const double correlation : {beside, above, across}) {
+        EXPECT_NEAR(correlation, 0, 4 * error / 3);
+    }
+    for (const int number : tenths) {
+        EXPECT_NEAR(number, 0.1 * count, 4 * std::sqrt(0.09 * count));
+    }
+}
+
+// For every distance up to 200 m along, across and both, the heights there have nothing to do with those here.
+TEST(Ground, RoughGroundDoesNotRepeatItself) {
+    const Ground ground(rough(0.1, 1));
+    constexpr int points = 400;  // a node apart and more
+    const auto height = [&ground](int i, const Eigen::Vector2d &away) {
+        return ground.height(away.x() + 0.7 * (i % 20), away.y() + 0.7 * (i / 20));
+    };
+    const auto correlation = [&](const Eigen::Vector2d &away) {
+        double here = 0, there = 0, both = 0;
+        for (int i = 0; i < points; i++) {
+            const double a = height(i, {0, 0}), b = height(i, away);
+            here += a * a;
+            there += b * b;
+            both += a * b;
+        }
+        return both / std::sqrt(here * there);
+    };
+    EXPECT_GT(correlation({0, 0.05}), 0.9);
+    for (int step = 32; step <= 400; step++) {  // half a metre each, as the nodes
+        for (const Eigen::Vector2d &direction : {Eigen::Vector2d(0.5, 0), {0, 0.5}, {0.5, 0.5}, {0.5, -0.5}}) {
+            ASSERT_LT(std::abs(correlation(step * direction)), 0.5) << step << " nodes";
+        }
+    }
+}
+
+// What is kept of the nodes for speed must not show.
+TEST(Ground, IsTheSameInWhateverOrderItIsLookedAt) {
+    const Ground ground(rough(0.1, 1)), backwards(rough(0.1, 1));
+    std::vector<double> heights;
+    for (int i = 0; i < 500; i++) {
+        heights.push_back(ground.height(0.61 * (i % 40), -4.0 * (i % 7)));
+    }
+    for (int i = 499; i >= 0; --i) {
+        EXPECT_EQ(backwards.height(0.61 * (i % 40), -4.0 * (i % 7)), heights[static_cast<std::size_t>(i)]);
+    }
 }
 
 TEST(Ground, StepsGoUpAndDown) {
