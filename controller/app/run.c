@@ -39,6 +39,12 @@ static bool read_inputs(run *r, const command_line *line, const robot_descriptio
         return false;
     }
     r->config = convert_config(&r->settings);
+    const int left_out = convert_shapes(robot, &r->config.monitor.shapes);
+    if (left_out > 0) {
+        fprintf(stderr,
+                "robot %s: the monitor knows no collision of %d shapes, for which it has no room\n",
+                robot->name, left_out);
+    }
     const lh_error bad = lh_config_validate(&r->config);
     if (bad != LH_OK) {
         return fail_with(r->error, "settings: %s", lh_error_text(bad));

@@ -22,6 +22,9 @@ lh_error lh_controller_init(lh_controller *controller, const lh_config *config, 
                             const lh_controlled *controlled) {
     lh_error error = lh_config_validate(config); /* so that nothing is begun that would not be finished */
     if (error == LH_OK) {
+        error = lh_shapes_validate(&config->monitor.shapes, robot);
+    }
+    if (error == LH_OK) {
         error = lh_task_init(&controller->task, &config->task, robot, controlled);
     }
     if (error == LH_OK) {
