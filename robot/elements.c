@@ -21,6 +21,19 @@ int find_joint(const struct elements *e, const char *name) {
     return -1;
 }
 
+int read_known(struct reading *r, const struct xml_element *at, const char *key, const struct elements *e,
+               int (*find)(const struct elements *, const char *)) {
+    const char *name = read_name(r, at, key);
+    const int index = find(e, name);
+    if (index < 0 && name[0] != '\0') {
+        fault(r, at, key, find == find_link ? "there is no such link" : "there is no such joint");
+    }
+    return index;
+}
+
+/* [kg m^2] */
+#define MOST_INERTIA 1e9
+
 /* Elements that others look at, and those of URDF that a robot is the same robot without. */
 static bool is_known(const char *name, const char *const *known) {
     for (; *known != NULL; known++) {
@@ -44,7 +57,9 @@ static void read_inertia(struct reading *r, const struct xml_element *at, matrix
     for (int i = 0; i < 3; i++) {
         for (int k = i; k < 3; k++) {
             double value = 0;
-            read_numbers(r, at, keys[i][k], i == k, &value, 1);
+            if (read_numbers(r, at, keys[i][k], i == k, &value, 1) && fabs(value) > MOST_INERTIA) {
+                fault(r, at, keys[i][k], "must be of at most %g", MOST_INERTIA);
+            }
             inertia->at[i][k] = inertia->at[k][i] = value;
         }
     }
@@ -58,14 +73,14 @@ static void read_inertial(struct reading *r, struct file_link *link) {
     }
     link->inertial = read_origin(r, inertial);
     const struct xml_element *mass = read_child(r, inertial, "mass");
-    const struct xml_element *inertia = read_child(r, inertial, "inertia");
+    link->inertia_at = read_child(r, inertial, "inertia");
     if (mass == NULL) {
         fault(r, inertial, NULL, "needs <mass>");
     } else {
-        read_not_negative(r, mass, "value", true, &link->mass);
+        read_not_negative(r, mass, "value", true, MOST_KILOGRAMS, &link->mass);
     }
-    if (inertia != NULL) {
-        read_inertia(r, inertia, &link->inertia);
+    if (link->inertia_at != NULL) {
+        read_inertia(r, link->inertia_at, &link->inertia);
     } else if (link->mass > 0) {
         fault(r, inertial, NULL, "needs <inertia>");
     }
@@ -103,7 +118,7 @@ static bool has_axis(const struct file_joint *joint) {
 static void read_axis(struct reading *r, struct file_joint *joint) {
     const struct xml_element *at = read_child(r, joint->at, "axis");
     vector axis = {1, 0, 0}; /* URDF's default */
-    if (at != NULL && !read_vector(r, at, "xyz", true, &axis)) {
+    if (at != NULL && !read_vector(r, at, "xyz", true, 1e6, &axis)) {
         return;
     }
     if (!has_axis(joint)) {
@@ -123,8 +138,8 @@ static void read_limit(struct reading *r, struct file_joint *joint) {
     }
     read_numbers(r, limit, "lower", false, &joint->lower, 1);
     read_numbers(r, limit, "upper", false, &joint->upper, 1);
-    read_not_negative(r, limit, "effort", false, &joint->effort);
-    read_not_negative(r, limit, "velocity", false, &joint->velocity);
+    read_not_negative(r, limit, "effort", false, HUGE_VAL, &joint->effort);
+    read_not_negative(r, limit, "velocity", false, HUGE_VAL, &joint->velocity);
 }
 
 static const char *read_end(struct reading *r, const struct xml_element *joint, const char *end) {

@@ -20,9 +20,10 @@ struct file_link {
     const char *name;
     double mass; /* 0: a frame without mass */
     frame inertial;
-    matrix inertia; /* about the centre of mass, axes of `inertial` */
-    struct file_shape *shapes;
-    int num_shapes;
+    matrix inertia;                       /* about the centre of mass, axes of `inertial` */
+    const struct xml_element *inertia_at; /* or NULL */
+    struct file_shape *shapes;            /* [num_seen] those that touch, then those that are only seen */
+    int num_shapes, num_seen;
 
     /* as found by tree_resolve and merge */
     int joint; /* it hangs on, -1: none */
@@ -42,6 +43,7 @@ struct file_joint {
     double lower, upper, effort, velocity;
     const struct xml_element *mimic; /* or NULL */
     double multiplier, offset;
+    const struct xml_element *hold; /* or NULL */
 
     int parent, child; /* links */
     int actuator;      /* -1: none, it is fixed or held */
@@ -52,10 +54,12 @@ struct file_joint {
 struct file_actuator {
     const struct xml_element *at;
     bool crawler;
-    int joint;
+    int joint;                    /* -1: a crawler that has its sprocket from sprocket.h */
+    int link;                     /* crawler without a joint: that it is fixed to */
+    double inertia;               /* crawler without a joint: of its drive train; 0: not given */
     double effort, velocity;      /* those of the extension, else of the joint */
     double lower, upper;          /* arm */
-    vector centre;                /* crawler, in the frame of the joint's parent link */
+    vector centre;                /* crawler, in the frame of the joint's parent link or of its own */
     double length, width, radius; /* crawler */
 };
 
@@ -73,17 +77,22 @@ struct elements {
     struct file_joint *joints;
     struct file_actuator actuators[ROBOT_MAX_ACTUATORS]; /* crawlers first */
     struct file_support supports[ROBOT_MAX_SUPPORTS];    /* tips first */
+    int moved[ROBOT_MAX_BODIES];                         /* link that the joint of a body moves; [0]: the root */
     int num_links, num_joints, num_actuators, num_supports, num_tips;
 };
 
 /* The links and joints of <robot>. */
 void elements_read(struct reading *r, struct elements *e);
 
-/* The shapes of a link, <collision> kept and <visual> looked at for its numbers only. */
+/* The shapes of a link, of <collision> and <visual>. */
 void shapes_read(struct reading *r, struct file_link *link);
 
 /* <limphome>: which joints are actuators, what the robot stands on. Needs links and joints resolved (tree.h). */
 void extension_read(struct reading *r, struct elements *e);
+
+/* Index of the link or joint that an attribute names, or -1 with a fault. */
+int read_known(struct reading *r, const struct xml_element *at, const char *key, const struct elements *e,
+               int (*find)(const struct elements *, const char *));
 
 /* Index of the link or joint of that name, or -1. */
 int find_link(const struct elements *e, const char *name);

@@ -2,6 +2,11 @@
 #include <string.h>
 
 #include "elements.h"
+#include "hold.h"
+
+#define PI 3.14159265358979323846
+#define LEAST_RANGE 1e-3            /* [rad] */
+#define ONCE_ROUND (2 * PI * 1.001) /* and what rounding adds [rad] */
 
 /* Attributes that are none of `known`, a list with NULL at its end: most likely a misspelt one. */
 static void refuse_unknown_attributes(struct reading *r, const struct xml_element *at, const char *const *known) {
@@ -16,26 +21,10 @@ static void refuse_unknown_attributes(struct reading *r, const struct xml_elemen
     }
 }
 
-static int read_link_name(struct reading *r, const struct elements *e, const struct xml_element *at) {
-    const char *name = read_name(r, at, "link");
-    const int link = find_link(e, name);
-    if (link < 0 && name[0] != '\0') {
-        fault(r, at, "link", "there is no such link");
-    }
-    return link;
-}
-
 /* The joint an actuator is of, which no other is, or -1 with a fault. */
-static int read_joint_name(struct reading *r, const struct elements *e, const struct xml_element *at) {
-    const char *name = read_name(r, at, "joint");
-    const int joint = find_joint(e, name);
-    if (joint < 0) {
-        if (name[0] != '\0') {
-            fault(r, at, "joint", "there is no such joint");
-        }
-        return -1;
-    }
-    if (e->joints[joint].actuator >= 0) {
+static int read_own_joint(struct reading *r, const struct elements *e, const struct xml_element *at) {
+    const int joint = read_known(r, at, "joint", e, find_joint);
+    if (joint >= 0 && e->joints[joint].actuator >= 0) {
         fault(r, at, "joint", "is an actuator already (line %lu)", e->actuators[e->joints[joint].actuator].at->line);
         return -1;
     }
@@ -48,17 +37,19 @@ static void read_drive(struct reading *r, const struct xml_element *at, const st
     actuator->effort = joint->effort;
     actuator->velocity = joint->velocity;
     const bool effort = xml_attribute(at, "effort") != NULL, velocity = xml_attribute(at, "velocity") != NULL;
-    read_positive(r, at, "effort", false, &actuator->effort);
-    read_positive(r, at, "velocity", false, &actuator->velocity);
+    read_positive(r, at, "effort", false, MOST_EFFORT, &actuator->effort);
+    read_positive(r, at, "velocity", false, MOST_VELOCITY, &actuator->velocity);
     const struct xml_element *limit = xml_child(joint->at, "limit");
     const struct xml_element *lacking = limit != NULL ? limit : joint->at;
-    if (!effort && !(actuator->effort > 0)) {
+    if (!effort && !(actuator->effort > 0 && actuator->effort <= MOST_EFFORT)) {
         fault(r, lacking, limit != NULL ? "effort" : NULL,
-              "needs <limit> with effort above 0, the largest torque [N m], here or in <%s>", at->name);
+              "needs <limit> with effort above 0 and at most %g, the largest torque [N m], here or in <%s>",
+              MOST_EFFORT, at->name);
     }
-    if (!velocity && !(actuator->velocity > 0)) {
+    if (!velocity && !(actuator->velocity > 0 && actuator->velocity <= MOST_VELOCITY)) {
         fault(r, lacking, limit != NULL ? "velocity" : NULL,
-              "needs <limit> with velocity above 0, the largest rate [rad/s], here or in <%s>", at->name);
+              "needs <limit> with velocity above 0 and at most %g, the largest rate [rad/s], here or in <%s>",
+              MOST_VELOCITY, at->name);
     }
 }
 
@@ -72,21 +63,42 @@ static struct file_actuator *add_actuator(struct reading *r, struct elements *e,
     return actuator;
 }
 
+static void read_belt(struct reading *r, const struct xml_element *at, struct file_actuator *c) {
+    read_vector(r, at, "xyz", true, MOST_METRES, &c->centre);
+    const bool sized = read_positive(r, at, "length", true, MOST_METRES, &c->length);
+    read_positive(r, at, "width", true, MOST_METRES, &c->width);
+    if (read_positive(r, at, "radius", true, MOST_METRES, &c->radius) && sized && c->length < 2 * c->radius) {
+        fault(r, at, "length", "must be at least twice the radius of %g m", c->radius);
+    }
+}
+
+/* A crawler that the file has no joint for, fixed to a link whose y points to the left. */
+static void read_free_crawler(struct reading *r, struct elements *e, const struct xml_element *at,
+                              struct file_actuator *c) {
+    static const char *const known[] = {"link",   "xyz",      "length",  "width", "radius",
+                                        "effort", "velocity", "inertia", NULL};
+    refuse_unknown_attributes(r, at, known);
+    c->link = read_known(r, at, "link", e, find_link);
+    read_belt(r, at, c);
+    read_positive(r, at, "effort", true, MOST_EFFORT, &c->effort);
+    read_positive(r, at, "velocity", true, MOST_VELOCITY, &c->velocity);
+    read_positive(r, at, "inertia", false, MOST_KILOGRAMS, &c->inertia);
+}
+
 static void read_crawler(struct reading *r, struct elements *e, const struct xml_element *at) {
     static const char *const known[] = {"joint", "xyz", "length", "width", "radius", "effort", "velocity", NULL};
-    refuse_unknown_attributes(r, at, known);
     struct file_actuator *c = add_actuator(r, e, at);
     if (c == NULL) {
         return;
     }
     c->crawler = true;
-    const int joint = read_joint_name(r, e, at);
-    read_vector(r, at, "xyz", true, &c->centre);
-    const bool sized = read_positive(r, at, "length", true, &c->length);
-    read_positive(r, at, "width", true, &c->width);
-    if (read_positive(r, at, "radius", true, &c->radius) && sized && c->length < 2 * c->radius) {
-        fault(r, at, "length", "must be at least twice the radius of %g m", c->radius);
+    if (xml_attribute(at, "link") != NULL && xml_attribute(at, "joint") == NULL) {
+        read_free_crawler(r, e, at, c);
+        return;
     }
+    refuse_unknown_attributes(r, at, known);
+    const int joint = read_own_joint(r, e, at);
+    read_belt(r, at, c);
     if (joint < 0) {
         return;
     }
@@ -99,13 +111,26 @@ static void read_crawler(struct reading *r, struct elements *e, const struct xml
     read_drive(r, at, &e->joints[joint], c);
 }
 
+/* Limits that are more than once round: degrees, most likely. */
+static void refuse_turns(struct reading *r, const struct xml_element *given, const struct file_actuator *arm) {
+    const double degree = PI / 180;
+    const bool whole = rint(arm->lower) == arm->lower && rint(arm->upper) == arm->upper;
+    const char *key = arm->upper > ONCE_ROUND ? "upper" : "lower";
+    if (whole && fabs(arm->lower) <= 360 && fabs(arm->upper) <= 360) {
+        fault(r, given, key, "lower %g and upper %g look like degrees; must be in radians: %.4g and %.4g", arm->lower,
+              arm->upper, arm->lower * degree, arm->upper * degree);
+    } else {
+        fault(r, given, key, "lower %g and upper %g must lie within once round, -6.283 to 6.283 rad", arm->lower,
+              arm->upper);
+    }
+}
+
 /* Limits of an arm joint: the extension's, else the joint's; a continuous one may turn once round. */
 static void read_range(struct reading *r, const struct xml_element *at, const struct file_joint *joint,
                        struct file_actuator *arm) {
-    const double pi = 3.14159265358979323846;
     const bool continuous = joint->type == JOINT_CONTINUOUS;
-    arm->lower = continuous ? -pi : joint->lower;
-    arm->upper = continuous ? pi : joint->upper;
+    arm->lower = continuous ? -PI : joint->lower;
+    arm->upper = continuous ? PI : joint->upper;
     const bool lower = read_numbers(r, at, "lower", false, &arm->lower, 1);
     const bool upper = read_numbers(r, at, "upper", false, &arm->upper, 1);
     const struct xml_element *limit = xml_child(joint->at, "limit");
@@ -117,8 +142,10 @@ static void read_range(struct reading *r, const struct xml_element *at, const st
         fault(r, joint->at, NULL, "needs <limit> with lower and upper [rad]");
         return;
     }
-    if (!(arm->lower < arm->upper)) {
+    if (!(arm->upper - arm->lower >= LEAST_RANGE)) {
         fault(r, given, lower ? "lower" : "upper", "lower %g must be below upper %g [rad]", arm->lower, arm->upper);
+    } else if (arm->lower < -ONCE_ROUND || arm->upper > ONCE_ROUND) {
+        refuse_turns(r, given, arm);
     }
 }
 
@@ -131,7 +158,7 @@ static void read_arm(struct reading *r, struct elements *e, const struct xml_ele
     }
     double home = 0;
     const bool placed = read_numbers(r, at, "home", true, &home, 1);
-    const int joint = read_joint_name(r, e, at);
+    const int joint = read_own_joint(r, e, at);
     if (joint < 0) {
         return;
     }
@@ -139,6 +166,11 @@ static void read_arm(struct reading *r, struct elements *e, const struct xml_ele
     arm->joint = joint;
     moved->actuator = e->num_actuators - 1;
     moved->home = home;
+    if (moved->mimic != NULL) {
+        fault(r, moved->mimic, "joint",
+              "an <arm> joint that follows another cannot be driven by itself; leave it out of <limphome>, "
+              "and it is held, or remove <mimic>");
+    }
     if (moved->type != JOINT_REVOLUTE && moved->type != JOINT_CONTINUOUS) {
         fault(r, moved->at, "type", "the joint of an <arm> must be revolute or continuous");
         return;
@@ -160,13 +192,13 @@ static void read_support(struct reading *r, struct elements *e, const struct xml
         return;
     }
     struct file_support *support = &e->supports[e->num_supports++];
-    *support = (struct file_support){.at = at, .link = read_link_name(r, e, at)};
-    read_vector(r, at, "xyz", true, &support->point);
+    *support = (struct file_support){.at = at, .link = read_known(r, at, "link", e, find_link)};
+    read_vector(r, at, "xyz", true, MOST_METRES, &support->point);
     if (tip) {
-        read_positive(r, at, "radius", true, &support->radius);
+        read_positive(r, at, "radius", true, MOST_METRES, &support->radius);
         e->num_tips++;
     } else {
-        read_not_negative(r, at, "radius", false, &support->radius);
+        read_not_negative(r, at, "radius", false, MOST_METRES, &support->radius);
     }
 }
 
@@ -191,28 +223,50 @@ static void check_counts(struct reading *r, const struct elements *e) {
     }
     if (e->num_tips == 0) {
         fault(r, e->extension, NULL, "has no <tip>; must have at least one, the end of the arm");
+    } else if (e->num_supports > e->num_tips && e->num_supports < 3) {
+        fault(r, e->extension, NULL,
+              "has %d <tip> and %d <support>; must have three in all to stand on, or no <support>: "
+              "then they follow from the crawlers",
+              e->num_tips, e->num_supports - e->num_tips);
+    } else if (e->num_supports == e->num_tips && e->num_tips + 4 > ROBOT_MAX_SUPPORTS) {
+        fault(r, e->extension, NULL, "has %d <tip>; must be %d at most, as the crawlers add four", e->num_tips,
+              ROBOT_MAX_SUPPORTS - 4);
+    }
+}
+
+/* What may stand in <limphome>, with the attributes of what is read elsewhere. */
+static void check_names(struct reading *r, const struct xml_element *extension) {
+    static const char *const names[] = {"crawler", "arm", "tip", "support", "hold", "no_contact"};
+    static const char *const own[] = {"self_contact", NULL}, *const hold[] = {"joint", "home", NULL},
+                             *const no_contact[] = {"link1", "link2", NULL};
+    refuse_unknown_attributes(r, extension, own);
+    for (const struct xml_element *at = extension->first; at != NULL; at = at->next) {
+        bool found = false;
+        for (size_t i = 0; i < sizeof names / sizeof names[0] && !found; i++) {
+            found = strcmp(at->name, names[i]) == 0;
+        }
+        if (!found) {
+            fault(r, at, NULL,
+                  "unknown inside <limphome>; known are <crawler>, <arm>, <tip>, <support>, <hold>, <no_contact>");
+        } else if (strcmp(at->name, "hold") == 0) {
+            refuse_unknown_attributes(r, at, hold);
+        } else if (strcmp(at->name, "no_contact") == 0) {
+            refuse_unknown_attributes(r, at, no_contact);
+        }
     }
 }
 
 void extension_read(struct reading *r, struct elements *e) {
-    static const char *const known[] = {"crawler", "arm", "tip", "support"};
     e->extension = read_child(r, e->robot, "limphome");
     if (e->extension == NULL) {
         fault(r, e->robot, NULL, "needs <limphome>, which names crawlers, arm joints and tip");
         return;
     }
-    for (const struct xml_element *at = e->extension->first; at != NULL; at = at->next) {
-        bool found = false;
-        for (size_t i = 0; i < sizeof known / sizeof known[0] && !found; i++) {
-            found = strcmp(at->name, known[i]) == 0;
-        }
-        if (!found) {
-            fault(r, at, NULL, "unknown inside <limphome>; known are <crawler>, <arm>, <tip>, <support>");
-        }
-    }
+    check_names(r, e->extension);
     read_each(r, e, "crawler", read_crawler);
     read_each(r, e, "arm", read_arm);
     read_each(r, e, "tip", read_support);
     read_each(r, e, "support", read_support);
     check_counts(r, e);
+    hold_joints(r, e);
 }

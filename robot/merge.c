@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#define LEAST_MASS 1e-6 /* [kg] */
+
 static void copy_name(char name[ROBOT_NAME_LENGTH], const char *from) {
     snprintf(name, ROBOT_NAME_LENGTH, "%.*s", ROBOT_NAME_LENGTH - 1, from);
 }
@@ -37,6 +39,7 @@ static bool place(struct reading *r, struct elements *e, struct file_link *link,
     const struct file_actuator *actuator = &e->actuators[joint->actuator];
     link->body = joint->actuator + 1;
     link->pose = frame_identity();
+    e->moved[link->body] = joint->child;
     begin_body(joint, link, parent, &robot->bodies[link->body]);
     if (parent->body >= link->body) {
         fault(r, actuator->at, "joint", "stands before joint %.60s, which carries it; arms go from root to tip",
@@ -54,10 +57,12 @@ static bool place(struct reading *r, struct elements *e, struct file_link *link,
     return true;
 }
 
-bool merge_links(struct reading *r, struct elements *e, const int order[MOST_LINKS], robot_description *robot) {
+bool merge_links(struct reading *r, struct elements *e, const int order[MOST_LINKS], const frame *root_pose,
+                 robot_description *robot) {
     struct file_link *root = &e->links[order[0]];
     root->body = 0;
-    root->pose = frame_identity();
+    e->moved[0] = order[0];
+    root->pose = *root_pose;
     copy_name(robot->bodies[0].name, root->name);
     robot->bodies[0].parent = -1;
     robot->bodies[0].joint = (robot_pose){{0, 0, 0}, {1, 0, 0, 0}};
@@ -67,6 +72,13 @@ bool merge_links(struct reading *r, struct elements *e, const int order[MOST_LIN
     bool good = true;
     for (int i = 1; i < e->num_links; i++) {
         good = place(r, e, &e->links[order[i]], robot) && good;
+    }
+    for (int c = 0; c < ROBOT_CRAWLERS; c++) {
+        const struct file_actuator *crawler = &e->actuators[c];
+        if (crawler->joint < 0 && e->links[crawler->link].body != 0) {
+            fault(r, crawler->at, "link", "moves with the arm or a sprocket; a crawler must be fixed to the base");
+            good = false;
+        }
     }
     return good;
 }
@@ -106,82 +118,35 @@ static void add_mass(const struct file_link *link, robot_body *body) {
     vector_store(centre, body->centre);
 }
 
-static void add_shape(struct reading *r, const struct file_link *link, const struct file_shape *from,
-                      robot_description *robot) {
-    if (robot->num_shapes >= ROBOT_MAX_SHAPES) {
-        if (robot->num_shapes++ == ROBOT_MAX_SHAPES) {
-            fault(r, from->at, NULL, "more than %d shapes, tips included", ROBOT_MAX_SHAPES);
-        }
-        return;
-    }
-    robot_shape *shape = &robot->shapes[robot->num_shapes++];
-    const frame pose = frame_multiply(&link->pose, &from->pose);
-    copy_name(shape->name, link->name);
-    shape->body = link->body;
-    shape->kind = from->kind;
-    shape->pose = frame_pose(&pose);
-    vector_store(from->half_size, shape->half_size);
+/* The body of a sprocket that the file has no joint for is of no link. */
+static bool has_links(const struct elements *e, int body) {
+    return body == 0 || e->actuators[body - 1].joint >= 0;
 }
 
-static void add_support(struct reading *r, const struct elements *e, int index, robot_description *robot) {
-    const struct file_support *from = &e->supports[index];
-    const struct file_link *link = &e->links[from->link];
-    robot_support *support = &robot->supports[robot->num_supports++];
-    support->body = link->body;
-    vector_store(frame_apply(&link->pose, from->point), support->point);
-    support->radius = from->radius;
-    if (index < e->num_tips) {
-        const struct file_shape ball = {.at = from->at,
-                                        .kind = ROBOT_SPHERE,
-                                        .pose = {from->point, matrix_identity()},
-                                        .half_size = {from->radius, from->radius, from->radius}};
-        add_shape(r, link, &ball, robot);
+/* Chains of links may lead far where each of them does not. */
+static bool is_far(const double point[3]) {
+    return vector_norm(vector_of(point)) > MOST_METRES;
+}
+
+static void check_body(struct reading *r, const struct xml_element *at, const robot_body *body) {
+    if (!(body->mass >= LEAST_MASS)) {
+        fault(r, at, NULL, "has no mass, nor has what is fixed to it; needs <inertial> with <mass> above 0");
+    } else if (body->mass > MOST_KILOGRAMS) {
+        fault(r, at, NULL, "has, with what is fixed to it, %g kg; must be at most %g", body->mass, MOST_KILOGRAMS);
+    }
+    if (is_far(body->joint.position) || is_far(body->centre)) {
+        fault(r, at, NULL, "is, or has its centre of mass, more than %g m from what it hangs on", MOST_METRES);
     }
 }
 
-static void add_actuator(const struct elements *e, int index, robot_description *robot) {
-    const struct file_actuator *from = &e->actuators[index];
-    const struct file_joint *joint = &e->joints[from->joint];
-    robot_actuator *actuator = &robot->actuators[index];
-    copy_name(actuator->name, joint->name);
-    actuator->effort = from->effort;
-    actuator->speed = from->velocity;
-    if (!from->crawler) {
-        actuator->lower = from->lower;
-        actuator->upper = from->upper;
-        actuator->home = joint->home;
-        return;
-    }
-    const struct file_link *parent = &e->links[joint->parent];
-    const frame origin = frame_multiply(&parent->pose, &joint->origin);
-    robot_crawler *crawler = &robot->crawlers[index];
-    vector_store(frame_apply(&parent->pose, from->centre), crawler->centre);
-    vector_store(matrix_apply(&origin.axes, joint->axis), crawler->axis);
-    crawler->length = from->length;
-    crawler->width = from->width;
-    crawler->radius = from->radius;
-}
-
-void merge_parts(struct reading *r, struct elements *e, const int order[MOST_LINKS], robot_description *robot) {
-    for (int i = 0; i < e->num_actuators; i++) {
-        add_actuator(e, i, robot);
-    }
-    robot->num_tips = e->num_tips;
-    for (int i = 0; i < e->num_supports; i++) {
-        add_support(r, e, i, robot);
-    }
+void merge_masses(struct reading *r, struct elements *e, const int order[MOST_LINKS], robot_description *robot) {
     for (int i = 0; i < e->num_links; i++) {
         const struct file_link *link = &e->links[order[i]];
         add_mass(link, &robot->bodies[link->body]);
-        for (int k = 0; k < link->num_shapes; k++) {
-            add_shape(r, link, &link->shapes[k], robot);
-        }
     }
     for (int b = 0; b < robot->num_bodies; b++) {
-        const robot_body *body = &robot->bodies[b];
-        if (!(body->mass > 0)) {
-            fault(r, e->links[find_link(e, body->name)].at, NULL,
-                  "has no mass, nor has what is fixed to it; needs <inertial> with <mass> above 0");
+        if (has_links(e, b)) {
+            check_body(r, e->links[e->moved[b]].at, &robot->bodies[b]);
         }
     }
 }

@@ -4,11 +4,12 @@
 
 #include "elements.h"
 
-/* Finds body and pose of every link, with the base as the file has it. False, with faults, if actuators do not fit the
- * tree. `order` as of tree_resolve. */
-bool merge_links(struct reading *r, struct elements *e, const int order[MOST_LINKS], robot_description *robot);
+/* Finds body and pose of every link, the root link's being `root_pose` in the body frame. False, with faults, if
+ * actuators do not fit the tree. `order` as of tree_resolve. */
+bool merge_links(struct reading *r, struct elements *e, const int order[MOST_LINKS], const frame *root_pose,
+                 robot_description *robot);
 
-/* Masses, shapes, crawlers, supports and actuators of the bodies. */
-void merge_parts(struct reading *r, struct elements *e, const int order[MOST_LINKS], robot_description *robot);
+/* Mass, centre and inertia of the bodies. */
+void merge_masses(struct reading *r, struct elements *e, const int order[MOST_LINKS], robot_description *robot);
 
 #endif

@@ -8,10 +8,13 @@
 
 #include "xml.h"
 
+/* What must be above 0 is not so only in double precision. */
+#define LEAST 1e-9
+
 enum { LINE_LENGTH = 1024, VALUE_LENGTH = 80 };
 
-/* Farther away, or larger, nothing of a robot is [m]. */
-#define LARGEST_COORDINATE 100.0
+/* Once round, and what rounding adds [rad]. */
+#define MOST_ANGLE (2 * 3.14159265358979323846 * 1.001)
 
 struct remark {
     unsigned long line;
@@ -52,6 +55,7 @@ static void append_element(char *text, const struct xml_element *e, const char *
     for (size_t i = 0; i < sizeof identifying / sizeof identifying[0] && key == NULL; i++) {
         key = xml_attribute(e, identifying[i]) != NULL ? identifying[i] : NULL;
     }
+    key = key == NULL ? e->attributes[0] : key;
     append(text, "<%.60s", e->name);
     const char *value = key != NULL ? xml_attribute(e, key) : NULL;
     if (value != NULL) {
@@ -194,41 +198,43 @@ bool read_numbers(struct reading *r, const struct xml_element *at, const char *k
     return true;
 }
 
-bool read_positive(struct reading *r, const struct xml_element *at, const char *key, bool required, double *number) {
+bool read_positive(struct reading *r, const struct xml_element *at, const char *key, bool required, double most,
+                   double *number) {
     double read = 0;
     if (!read_numbers(r, at, key, required, &read, 1)) {
         return false;
     }
-    if (!(read > 0)) {
-        fault(r, at, key, "must be above 0");
+    if (!(read >= LEAST && read <= most)) {
+        fault(r, at, key, "must be above 0 and at most %g", most);
         return false;
     }
     *number = read;
     return true;
 }
 
-bool read_not_negative(struct reading *r, const struct xml_element *at, const char *key, bool required,
+bool read_not_negative(struct reading *r, const struct xml_element *at, const char *key, bool required, double most,
                        double *number) {
     double read = 0;
     if (!read_numbers(r, at, key, required, &read, 1)) {
         return false;
     }
-    if (!(read >= 0)) {
-        fault(r, at, key, "must not be negative");
+    if (!(read >= 0 && read <= most)) {
+        fault(r, at, key, "must be 0 or more and at most %g", most);
         return false;
     }
     *number = read;
     return true;
 }
 
-bool read_vector(struct reading *r, const struct xml_element *at, const char *key, bool required, vector *v) {
+bool read_vector(struct reading *r, const struct xml_element *at, const char *key, bool required, double most,
+                 vector *v) {
     double read[3];
     if (!read_numbers(r, at, key, required, read, 3)) {
         return false;
     }
     for (int i = 0; i < 3; i++) {
-        if (fabs(read[i]) > LARGEST_COORDINATE) {
-            fault(r, at, key, "must lie within %g m", LARGEST_COORDINATE);
+        if (fabs(read[i]) > most) {
+            fault(r, at, key, "must be numbers of at most %g", most);
             return false;
         }
     }
@@ -249,8 +255,11 @@ frame read_origin(struct reading *r, const struct xml_element *at) {
     const struct xml_element *origin = read_child(r, at, "origin");
     vector xyz = {0, 0, 0}, rpy = {0, 0, 0};
     if (origin != NULL) {
-        read_vector(r, origin, "xyz", false, &xyz);
-        read_vector(r, origin, "rpy", false, &rpy);
+        read_vector(r, origin, "xyz", false, MOST_METRES, &xyz);
+        if (read_vector(r, origin, "rpy", false, 1e6, &rpy) &&
+            (fabs(rpy.x) > MOST_ANGLE || fabs(rpy.y) > MOST_ANGLE || fabs(rpy.z) > MOST_ANGLE)) {
+            fault(r, origin, "rpy", "is more than once round (6.283 rad), as if in degrees; must be in radians");
+        }
     }
     return frame_from_rpy(xyz, rpy);
 }

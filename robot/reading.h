@@ -9,6 +9,12 @@
 #include "geometry.h"
 #include "robot_file.h"
 
+/* Nothing of a robot is farther away or larger, heavier, or stronger. A unit is mistaken, most likely. */
+#define MOST_METRES 100.0
+#define MOST_KILOGRAMS 1e6
+#define MOST_EFFORT 1e9   /* [N m] */
+#define MOST_VELOCITY 1e4 /* [rad/s] */
+
 struct xml_element;
 
 /* Lines of one kind, in the order in which they were found. */
@@ -45,11 +51,14 @@ const char *read_name(struct reading *r, const struct xml_element *at, const cha
  * malformed (a fault). */
 bool read_numbers(struct reading *r, const struct xml_element *at, const char *key, bool required, double *numbers,
                   int count);
-/* The same of one number above 0, or of one that is not negative. */
-bool read_positive(struct reading *r, const struct xml_element *at, const char *key, bool required, double *number);
-bool read_not_negative(struct reading *r, const struct xml_element *at, const char *key, bool required, double *number);
-/* The same of a position or direction. */
-bool read_vector(struct reading *r, const struct xml_element *at, const char *key, bool required, vector *v);
+/* The same of one number above 0, or not below it, up to `most`. */
+bool read_positive(struct reading *r, const struct xml_element *at, const char *key, bool required, double most,
+                   double *number);
+bool read_not_negative(struct reading *r, const struct xml_element *at, const char *key, bool required, double most,
+                       double *number);
+/* The same of three numbers, each of magnitude up to `most`. */
+bool read_vector(struct reading *r, const struct xml_element *at, const char *key, bool required, double most,
+                 vector *v);
 
 /* The child of that name; given twice it is a fault, the first counts. NULL if there is none. */
 const struct xml_element *read_child(struct reading *r, const struct xml_element *at, const char *name);

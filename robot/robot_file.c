@@ -4,21 +4,31 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "contacts.h"
 #include "elements.h"
+#include "inertia.h"
 #include "merge.h"
+#include "parts.h"
+#include "sprocket.h"
 #include "stance.h"
+#include "touch.h"
 #include "tree.h"
 #include "xml.h"
 
-/* Contact between bodies that move against each other otherwise than about one joint. */
-static void allow_contacts(robot_description *robot) {
-    for (int a = 0; a < robot->num_bodies; a++) {
-        for (int b = 0; b < robot->num_bodies; b++) {
-            const bool sprocket = (a > 0 && a <= ROBOT_CRAWLERS) || (b > 0 && b <= ROBOT_CRAWLERS);
-            const bool adjacent = robot->bodies[a].parent == b || robot->bodies[b].parent == a;
-            robot->may_meet[a][b] = a != b && !sprocket && !adjacent;
-        }
+/* Bodies from links, in the frame that the crawlers give. */
+static bool build_bodies(struct reading *r, struct elements *e, const int *order, robot_description *robot) {
+    frame root_pose = frame_identity();
+    if (!merge_links(r, e, order, &root_pose, robot)) {
+        return false;
     }
+    parts_crawlers(e, robot);
+    if (!stance_find(r, e, robot, &root_pose) || !merge_links(r, e, order, &root_pose, robot)) {
+        return false;
+    }
+    parts_crawlers(e, robot);
+    merge_masses(r, e, order, robot);
+    inertia_check(r, e, robot);
+    return r->faults.count == 0;
 }
 
 /* What is found fault with element by element is told together; what follows from all of them only where they are
@@ -28,16 +38,16 @@ static void build(struct reading *r, struct elements *e, robot_description *robo
     elements_read(r, e);
     const bool is_tree = tree_resolve(r, e, order);
     extension_read(r, e);
-    if (r->faults.count > 0 || !is_tree || !merge_links(r, e, order, robot)) {
+    if (r->faults.count > 0 || !is_tree || !build_bodies(r, e, order, robot)) {
         return;
     }
     const char *name = xml_attribute(e->robot, "name");
     snprintf(robot->name, sizeof robot->name, "%.*s", ROBOT_NAME_LENGTH - 1, name == NULL ? "" : name);
-    merge_parts(r, e, order, robot);
-    if (r->faults.count == 0 && stance_find(r, e, robot)) {
-        stance_add_supports(robot);
-        allow_contacts(robot);
-    }
+    sprockets_make(r, e, robot);
+    parts_actuators(e, robot);
+    parts_supports(r, e, robot);
+    touch_find(r, e, order, robot);
+    contacts_find(r, e, robot);
 }
 
 bool robot_file_read(const char *path, const char *packages, robot_description *robot, robot_report *report) {

@@ -1,10 +1,11 @@
 #include <string.h>
 
 #include "elements.h"
+#include "mesh.h"
 
 static void read_box(struct reading *r, const struct xml_element *at, struct file_shape *shape) {
     vector size = {0, 0, 0};
-    if (read_vector(r, at, "size", true, &size) && !(size.x > 0 && size.y > 0 && size.z > 0)) {
+    if (read_vector(r, at, "size", true, MOST_METRES, &size) && !(size.x > 0 && size.y > 0 && size.z > 0)) {
         fault(r, at, "size", "must be three lengths above 0");
     }
     shape->kind = ROBOT_BOX;
@@ -13,15 +14,15 @@ static void read_box(struct reading *r, const struct xml_element *at, struct fil
 
 static void read_sphere(struct reading *r, const struct xml_element *at, struct file_shape *shape) {
     double radius = 0;
-    read_positive(r, at, "radius", true, &radius);
+    read_positive(r, at, "radius", true, MOST_METRES, &radius);
     shape->kind = ROBOT_SPHERE;
     shape->half_size = (vector){radius, radius, radius};
 }
 
 static void read_cylinder(struct reading *r, const struct xml_element *at, struct file_shape *shape) {
     double radius = 0, length = 0;
-    read_positive(r, at, "radius", true, &radius);
-    read_positive(r, at, "length", true, &length);
+    read_positive(r, at, "radius", true, MOST_METRES, &radius);
+    read_positive(r, at, "length", true, MOST_METRES, &length);
     shape->kind = ROBOT_CYLINDER;
     shape->half_size = (vector){radius, radius, length / 2};
 }
@@ -56,10 +57,10 @@ static bool read_shape(struct reading *r, const struct xml_element *at, struct f
         read_sphere(r, geometry, shape);
     } else if (strcmp(geometry->name, "cylinder") == 0) {
         read_cylinder(r, geometry, shape);
-    } else if (strcmp(geometry->name, "mesh") == 0 && strcmp(at->name, "visual") == 0) {
-        return false; /* nothing is drawn with it */
+    } else if (strcmp(geometry->name, "mesh") == 0) {
+        return strcmp(at->name, "collision") == 0 && mesh_read(r, geometry, shape); /* nothing is drawn with it */
     } else {
-        fault(r, geometry, NULL, "unknown shape; known are <box>, <sphere>, <cylinder>");
+        fault(r, geometry, NULL, "unknown shape; known are <box>, <sphere>, <cylinder>, <mesh>");
         return false;
     }
     return true;
@@ -67,15 +68,15 @@ static bool read_shape(struct reading *r, const struct xml_element *at, struct f
 
 void shapes_read(struct reading *r, struct file_link *link) {
     size_t count = 0;
-    for (const struct xml_element *at = xml_child(link->at, "collision"); at != NULL; at = xml_again(at)) {
+    for (const struct xml_element *at = link->at->first; at != NULL; at = at->next) {
         count++;
     }
     link->shapes = arena_take(&r->arena, count, sizeof *link->shapes);
     for (const struct xml_element *at = xml_child(link->at, "collision"); at != NULL; at = xml_again(at)) {
         link->num_shapes += read_shape(r, at, &link->shapes[link->num_shapes]);
     }
+    link->num_seen = link->num_shapes;
     for (const struct xml_element *at = xml_child(link->at, "visual"); at != NULL; at = xml_again(at)) {
-        struct file_shape unused;
-        read_shape(r, at, &unused);
+        link->num_seen += read_shape(r, at, &link->shapes[link->num_seen]);
     }
 }

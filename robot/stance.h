@@ -4,10 +4,8 @@
 
 #include "elements.h"
 
-/* Expresses all of `robot` in the body frame. False, with faults, if the crawlers are no pair. */
-bool stance_find(struct reading *r, const struct elements *e, robot_description *robot);
-
-/* What the robot stands on besides its tips, where the file lists nothing: the ends of the belts' outer edges. */
-void stance_add_supports(robot_description *robot);
+/* Pose of the root link in the body frame, from crawlers in the frame of the root link; sprockets are made to turn
+ * forward. False, with faults, if the crawlers are no pair. */
+bool stance_find(struct reading *r, struct elements *e, const robot_description *robot, frame *root_pose);
 
 #endif

@@ -1,5 +1,6 @@
 #include "tree.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* The link that a joint names at one end, or -1 with a fault. */
@@ -44,8 +45,7 @@ static void tell_loop(struct reading *r, const struct elements *e, int link) {
     do {
         const size_t length = strlen(text);
         if (length < sizeof text - 100) {
-            strcat(text, length > 0 ? " on " : "");
-            strncat(text, e->links[link].name, 60);
+            snprintf(text + length, sizeof text - length, "%s%.60s", length > 0 ? " on " : "", e->links[link].name);
         }
         link = e->joints[e->links[link].joint].parent;
     } while (link != start);

@@ -1,0 +1,10 @@
+/* Which bodies may touch each other. */
+#ifndef LIMPHOME_ROBOT_CONTACTS_H
+#define LIMPHOME_ROBOT_CONTACTS_H
+
+#include "elements.h"
+
+/* Those that are not joined, less what <no_contact> and self_contact="false" except. */
+void contacts_find(struct reading *r, const struct elements *e, robot_description *robot);
+
+#endif

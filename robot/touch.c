@@ -1,0 +1,192 @@
+#include "touch.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* Shapes may reach beyond a belt by this share of its radius and still be the belt. */
+#define BEYOND_BELT 0.05
+
+/* Shapes may reach below the ground by this share of the crawlers' radius: what belts sink in, and rounding. */
+#define BELOW_GROUND 0.005
+
+/* A shape on its way into the description. */
+struct candidate {
+    const struct xml_element *at;
+    robot_shape shape;
+};
+
+struct candidates {
+    struct candidate *list;
+    int count;
+};
+
+static bool is_sprocket(int body) {
+    return body > 0 && body <= ROBOT_CRAWLERS;
+}
+
+/* How far a shape reaches from its middle along a unit vector, both in the same frame. */
+static double reach(const robot_shape *shape, const frame *pose, vector along) {
+    const matrix back = matrix_transpose(&pose->axes);
+    const vector v = matrix_apply(&back, along);
+    const double *half = shape->half_size;
+    switch (shape->kind) {
+        case ROBOT_SPHERE:
+            return half[0];
+        case ROBOT_CYLINDER:
+            return half[0] * hypot(v.x, v.y) + half[2] * fabs(v.z);
+        case ROBOT_BOX:
+        default:
+            return half[0] * fabs(v.x) + half[1] * fabs(v.y) + half[2] * fabs(v.z);
+    }
+}
+
+/* Frames of all bodies in the body frame, joints at home. */
+static void home_frames(const robot_description *robot, frame frames[ROBOT_MAX_BODIES]) {
+    frames[0] = frame_identity();
+    for (int b = 1; b < robot->num_bodies; b++) {
+        const robot_body *body = &robot->bodies[b];
+        const frame joint = frame_of(&body->joint);
+        const frame turned = frame_about(vector_of(body->axis), robot->actuators[b - 1].home);
+        const frame moved = frame_multiply(&joint, &turned);
+        frames[b] = frame_multiply(&frames[body->parent], &moved);
+    }
+}
+
+static frame home_pose(const robot_shape *shape, const frame frames[ROBOT_MAX_BODIES]) {
+    const frame pose = frame_of(&shape->pose);
+    return frame_multiply(&frames[shape->body], &pose);
+}
+
+/* Whether a shape lies within the box round a crawler. */
+static bool is_belt(const robot_shape *shape, const frame *pose, const robot_crawler *crawler) {
+    const vector across = vector_of(crawler->axis), up = {0, 0, 1};
+    const vector along = vector_cross(across, up);
+    const vector away = vector_subtract(pose->origin, vector_of(crawler->centre));
+    const double room = BEYOND_BELT * crawler->radius;
+    return fabs(vector_dot(away, along)) + reach(shape, pose, along) <= crawler->length / 2 + room &&
+           fabs(vector_dot(away, across)) + reach(shape, pose, across) <= crawler->width / 2 + room &&
+           fabs(vector_dot(away, up)) + reach(shape, pose, up) <= crawler->radius + room;
+}
+
+/* Whether turning the sprocket leaves a shape as it is. */
+static bool is_round_about(const robot_shape *shape, const robot_body *sprocket) {
+    const double alike = 1e-3;
+    const frame pose = frame_of(&shape->pose);
+    const vector axis = vector_of(sprocket->axis);
+    const vector off = vector_cross(pose.origin, axis);
+    const vector own = {pose.axes.at[0][2], pose.axes.at[1][2], pose.axes.at[2][2]};
+    const bool centred = vector_norm(off) <= alike * shape->half_size[0];
+    return centred && (shape->kind == ROBOT_SPHERE ||
+                       (shape->kind == ROBOT_CYLINDER && vector_norm(vector_cross(own, axis)) <= alike));
+}
+
+/* Whether a shape is left out: it belongs to a crawler. */
+static bool belongs_to_belt(struct reading *r, const struct candidate *c, const frame *pose,
+                            const robot_description *robot) {
+    const int body = c->shape.body;
+    if (body > ROBOT_CRAWLERS) {
+        return false;
+    }
+    for (int i = 0; i < ROBOT_CRAWLERS; i++) {
+        if ((body == 0 || body == i + 1) && is_belt(&c->shape, pose, &robot->crawlers[i])) {
+            remark(r, c->at, NULL, "lies within the %s crawler; left out, as the crawler's belt takes its place",
+                   i == 0 ? "left" : "right");
+            return true;
+        }
+    }
+    if (is_sprocket(body) && !is_round_about(&c->shape, &robot->bodies[body])) {
+        fault(r, c->at, NULL,
+              "turns with the sprocket of a crawler and reaches beyond the crawler (length %g, width %g, radius %g m); "
+              "must "
+              "lie within it, be round about the sprocket's axis, or be on another link",
+              robot->crawlers[body - 1].length, robot->crawlers[body - 1].width, robot->crawlers[body - 1].radius);
+    }
+    return false;
+}
+
+static double mean_radius(const robot_description *robot) {
+    return (robot->crawlers[0].radius + robot->crawlers[1].radius) / 2;
+}
+
+/* The robot is to stand on its crawlers when it is put down. */
+static void check_above_ground(struct reading *r, const struct candidate *c, const frame *pose,
+                               const robot_description *robot) {
+    const double lowest = pose->origin.z - reach(&c->shape, pose, (vector){0, 0, 1});
+    if (lowest < -BELOW_GROUND * mean_radius(robot)) {
+        fault(r, c->at, NULL,
+              "reaches %.3g m below the ground on which the crawlers stand%s: the robot would stand on it, not on its "
+              "crawlers",
+              -lowest, c->shape.body == 0 || is_sprocket(c->shape.body) ? "" : " (in the initial pose, home)");
+    }
+}
+
+static void check_supports(struct reading *r, const struct elements *e, const robot_description *robot) {
+    for (int i = robot->num_tips; i < e->num_supports; i++) {
+        const robot_support *support = &robot->supports[i];
+        const double lowest = support->point[2] - support->radius;
+        if (support->body == 0 && lowest < -BELOW_GROUND * mean_radius(robot)) {
+            fault(r, e->supports[i].at, "xyz", "lies %.3g m below the ground on which the crawlers stand; must not",
+                  -lowest);
+        }
+    }
+}
+
+static void add(struct candidates *all, const struct xml_element *at, const struct file_link *link,
+                const struct file_shape *from) {
+    struct candidate *c = &all->list[all->count++];
+    const frame pose = frame_multiply(&link->pose, &from->pose);
+    c->at = at;
+    snprintf(c->shape.name, sizeof c->shape.name, "%.*s", ROBOT_NAME_LENGTH - 1, link->name);
+    c->shape.body = link->body;
+    c->shape.kind = from->kind;
+    c->shape.pose = frame_pose(&pose);
+    vector_store(from->half_size, c->shape.half_size);
+}
+
+/* Tips first, then the shapes of each link. */
+static struct candidates gather(struct reading *r, const struct elements *e, const int order[MOST_LINKS]) {
+    int count = e->num_tips;
+    for (int i = 0; i < e->num_links; i++) {
+        count += e->links[i].num_shapes;
+    }
+    struct candidates all = {.list = arena_take(&r->arena, (size_t)count, sizeof *all.list)};
+    for (int i = 0; i < e->num_tips; i++) {
+        const struct file_support *tip = &e->supports[i];
+        const struct file_shape ball = {.kind = ROBOT_SPHERE,
+                                        .pose = {tip->point, matrix_identity()},
+                                        .half_size = {tip->radius, tip->radius, tip->radius}};
+        add(&all, tip->at, &e->links[tip->link], &ball);
+    }
+    for (int i = 0; i < e->num_links; i++) {
+        const struct file_link *link = &e->links[order[i]];
+        for (int k = 0; k < link->num_shapes; k++) {
+            add(&all, link->shapes[k].at, link, &link->shapes[k]);
+        }
+    }
+    return all;
+}
+
+void touch_find(struct reading *r, const struct elements *e, const int order[MOST_LINKS], robot_description *robot) {
+    const struct candidates all = gather(r, e, order);
+    frame frames[ROBOT_MAX_BODIES];
+    home_frames(robot, frames);
+    check_supports(r, e, robot);
+    for (int i = 0; i < all.count; i++) {
+        const struct candidate *c = &all.list[i];
+        const frame pose = home_pose(&c->shape, frames);
+        if (vector_norm(pose.origin) > 2 * MOST_METRES) {
+            fault(r, c->at, NULL, "is more than %g m from the base", 2 * MOST_METRES);
+            continue;
+        }
+        const bool is_tip = i < robot->num_tips;
+        if (!is_tip && belongs_to_belt(r, c, &pose, robot)) {
+            continue;
+        }
+        check_above_ground(r, c, &pose, robot);
+        if (robot->num_shapes == ROBOT_MAX_SHAPES) {
+            fault(r, c->at, NULL, "more than %d shapes, tips included", ROBOT_MAX_SHAPES);
+            return;
+        }
+        robot->shapes[robot->num_shapes++] = c->shape;
+    }
+}
