@@ -22,9 +22,6 @@ lh_error lh_controller_init(lh_controller *controller, const lh_config *config, 
                             const lh_controlled *controlled) {
     lh_error error = lh_config_validate(config); /* so that nothing is begun that would not be finished */
     if (error == LH_OK) {
-        error = lh_shapes_validate(&config->monitor.shapes, robot);
-    }
-    if (error == LH_OK) {
         error = lh_task_init(&controller->task, &config->task, robot, controlled);
     }
     if (error == LH_OK) {
@@ -35,6 +32,14 @@ lh_error lh_controller_init(lh_controller *controller, const lh_config *config, 
         if (config->monitor.active) {
             lh_controller_guard(controller);
         }
+    }
+    return error;
+}
+
+lh_error lh_controller_keep_apart(lh_controller *controller, const lh_shapes *shapes) {
+    lh_error error = lh_shapes_validate(shapes, &controller->task.robot);
+    if (error == LH_OK) {
+        controller->monitor.shapes = *shapes;
     }
     return error;
 }

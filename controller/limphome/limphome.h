@@ -7,6 +7,7 @@
 #include "limphome/base/error.h"
 #include "limphome/base/random.h"
 #include "limphome/base/vector.h"
+#include "limphome/body/frame.h"
 #include "limphome/body/kinematics.h"
 #include "limphome/body/quasi_static.h"
 #include "limphome/body/rest.h"

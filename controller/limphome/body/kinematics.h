@@ -18,18 +18,6 @@ typedef struct lh_posture {
     int32_t carrying[LH_MAX_SUPPORTS]; /* indices of the supports that can carry the robot on level ground, ascending */
 } lh_posture;
 
-/* Where a link is and how it is turned. */
-typedef struct lh_frame {
-    lh_vec3 origin;
-    lh_quat rotation;
-} lh_frame;
-
-/* A point of the frame, where the frame is seen from. */
-lh_vec3 lh_frame_point(const lh_frame *frame, lh_vec3 point);
-
-/* The frames of all links, frames[robot->num_links], with the body's origin and `attitude`. */
-void lh_kinematics_frames(const lh_robot *robot, lh_quat attitude, const float *joint_angle, lh_frame *frames);
-
 /* Range of the tolerance by which supports count as carrying. */
 #define LH_SUPPORT_TOLERANCE_MIN 0.001f /* [m] */
 #define LH_SUPPORT_TOLERANCE_MAX 1.0f   /* [m] */

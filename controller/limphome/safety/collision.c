@@ -1,7 +1,7 @@
 #include "limphome/safety/collision.h"
 
 #include "limphome/base/elementary.h"
-#include "limphome/body/kinematics.h"
+#include "limphome/body/frame.h"
 #include "limphome/safety/solid.h"
 
 #define ANY_DISTANCE 1e9f /* more than there is [m] */
@@ -38,7 +38,7 @@ typedef struct posture {
 } posture;
 
 static void take_posture(const lh_robot *robot, const float *angle, posture *p) {
-    lh_kinematics_frames(robot, (lh_quat){1.0f, 0.0f, 0.0f, 0.0f}, angle, p->frames);
+    lh_frames_of_links(robot, (lh_quat){1.0f, 0.0f, 0.0f, 0.0f}, angle, p->frames);
 }
 
 static lh_solid place(const posture *p, int32_t index) {

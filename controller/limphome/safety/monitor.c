@@ -144,12 +144,11 @@ static void look_ahead(const lh_monitor *monitor, const lh_task *task, const lh_
  * one more at least. */
 static void keep_apart(const lh_monitor *monitor, const lh_task *task, const lh_state *state, uint32_t whole,
                        lh_guarded *guarded, lh_verdict *verdict) {
-    const lh_monitor_config *config = &monitor->config;
     int32_t count_of_robot = task->robot.num_actuators;
     for (int32_t round = 0; round < count_of_robot; round++) {
         float next[LH_MAX_ACTUATORS];
         look_ahead(monitor, task, state, verdict, next);
-        uint32_t joints = lh_collision_joints(&task->robot, &config->shapes, config->collision_clearance,
+        uint32_t joints = lh_collision_joints(&task->robot, &monitor->shapes, monitor->config.collision_clearance,
                                               state->actuator_position, next);
         if (joints == 0) {
             return;

@@ -52,7 +52,6 @@ typedef struct lh_monitor_config {
                    tumble: a robot that is put back then is not held for ever */
     lh_jump_limits slack; /* what a state may differ from the one before more than the fastest motion explains, each 0
                              to LH_JUMP_MAX; default 1 m, 1 rad, 0.5 rad */
-    lh_shapes shapes;     /* of the robot; default none */
 } lh_monitor_config;
 
 /* So far. */
@@ -64,6 +63,7 @@ typedef struct lh_monitor_counts {
 
 typedef struct lh_monitor {
     lh_monitor_config config;
+    lh_shapes shapes; /* that are kept apart, of the task's robot; none from the start */
     lh_plausibility plausibility;
     lh_stuck stuck;
     bool moving;                      /* `executed` led to the next state, from `plausibility.believed` */

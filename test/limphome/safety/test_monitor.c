@@ -208,12 +208,6 @@ START_TEST(the_margin_keeps_above_its_floor) {
 }
 END_TEST
 
-static lh_monitor_config with_shapes(void) {
-    lh_monitor_config config = lh_monitor_config_default();
-    config.shapes = crawler_shapes();
-    return config;
-}
-
 /* Folded and turned aside, over the left crawler. */
 static lh_state over_the_crawler(float boom) {
     lh_state state = standing();
@@ -224,26 +218,26 @@ static lh_state over_the_crawler(float boom) {
 }
 
 START_TEST(the_arm_is_not_lowered_on_a_crawler) {
-    lh_monitor_config config = with_shapes();
+    lh_monitor_config config = lh_monitor_config_default();
     init_with(&config);
+    monitor.shapes = crawler_shapes();
     lh_state state = over_the_crawler(0.1f);
     ck_assert_uint_eq(check(&state, action_of(FORWARD, STILL, REVERSE, STILL)), LH_HAZARD_COLLISION);
     expect_executed(FORWARD, STILL, STILL, STILL, 1u << 3);
     ck_assert_uint_eq(check(&state, action_of(FORWARD, FORWARD, FORWARD, STILL)), 0);
-    config.collision_clearance = 0.0f; /* as near as that it may go */
-    config.shapes.count = 0;
-    init_with(&config);
+    init_with(&config); /* which knows of no shapes */
     ck_assert_uint_eq(check(&state, action_of(FORWARD, STILL, REVERSE, STILL)), 0);
 }
 END_TEST
 
 /* Whatever is let through leaves parts apart by the clearance, or no nearer than they were. */
 START_TEST(what_is_executed_keeps_parts_apart) {
-    lh_monitor_config config = with_shapes();
+    lh_monitor_config config = lh_monitor_config_default();
     config.margin_floor = -1.0f;
     config.slack = (lh_jump_limits){1e6f, 1e6f, 1e6f};
     config.joint.acceleration = 100.0f;
     init_with(&config);
+    monitor.shapes = crawler_shapes();
     lh_random random;
     lh_random_init(&random, 5);
     int32_t found = 0;
@@ -259,8 +253,7 @@ START_TEST(what_is_executed_keeps_parts_apart) {
         for (int32_t k = 0; k < 5; k++) {
             next[k] = state.actuator_position[k] + 0.5f * velocity[k];
         }
-        ck_assert_uint_eq(
-            lh_collision_joints(&task.robot, &monitor.config.shapes, 0.02f, state.actuator_position, next), 0);
+        ck_assert_uint_eq(lh_collision_joints(&task.robot, &monitor.shapes, 0.02f, state.actuator_position, next), 0);
     }
     ck_assert_int_gt(found, 50);
 }
@@ -392,8 +385,8 @@ START_TEST(any_states) {
     config.slack = (lh_jump_limits){1e6f, 1e6f, 1e6f};
     config.crawler.acceleration = 1.0f;
     config.margin_floor = 0.1f;
-    config.shapes = crawler_shapes();
     init_with(&config);
+    monitor.shapes = crawler_shapes();
     lh_random random;
     lh_random_init(&random, 11);
     float before[LH_MAX_ACTUATORS] = {0.0f};
