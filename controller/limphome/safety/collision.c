@@ -4,8 +4,7 @@
 #include "limphome/body/frame.h"
 #include "limphome/safety/solid.h"
 
-#define ANY_DISTANCE 1e9f /* more than there is [m] */
-#define ROUNDING 1e-5f    /* coming nearer by less is none [m] */
+#define ROUNDING 1e-5f /* coming nearer by less is none [m] */
 
 _Static_assert(LH_MAX_LINKS <= 32, "a bit for each link");
 
@@ -82,11 +81,11 @@ static uint32_t approaching(const posture *now, const posture *then, const uint3
             int32_t a = shapes->shape[i].link;
             int32_t b = shapes->shape[j].link;
             uint32_t between = chain[a] ^ chain[b];
-            if ((shapes->may_meet[a] >> b & 1u) == 0 || between == 0 || distance(then, i, j, clearance) >= clearance) {
+            if ((shapes->may_meet[a] >> b & 1u) == 0 || between == 0) {
                 continue;
             }
-            float left = distance(then, i, j, ANY_DISTANCE);
-            if (left < clearance && left < distance(now, i, j, ANY_DISTANCE) - ROUNDING) {
+            float left = distance(then, i, j, clearance);
+            if (left < clearance && distance(now, i, j, left + ROUNDING) >= left + ROUNDING) {
                 joints |= between;
             }
         }

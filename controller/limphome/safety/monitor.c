@@ -140,12 +140,12 @@ static void look_ahead(const lh_monitor *monitor, const lh_task *task, const lh_
     }
 }
 
-/* Stills the joints that would bring parts of the robot together. What is left may do so with others: each round stills
- * one more at least. */
+/* Stills the joints that would bring parts of the robot together. What is left may do so with others: this ends, as
+ * each round stills one more at least. */
 static void keep_apart(const lh_monitor *monitor, const lh_task *task, const lh_state *state, uint32_t whole,
                        lh_guarded *guarded, lh_verdict *verdict) {
-    int32_t count_of_robot = task->robot.num_actuators;
-    for (int32_t round = 0; round < count_of_robot; round++) {
+    uint32_t stilled = 0;
+    for (;;) {
         float next[LH_MAX_ACTUATORS];
         look_ahead(monitor, task, state, verdict, next);
         uint32_t joints = lh_collision_joints(&task->robot, &monitor->shapes, monitor->config.collision_clearance,
@@ -153,10 +153,11 @@ static void keep_apart(const lh_monitor *monitor, const lh_task *task, const lh_
         if (joints == 0) {
             return;
         }
-        for (int32_t k = 0; k < count_of_robot; k++) {
-            guarded[k].collides = guarded[k].collides || (joints >> k & 1u) != 0;
+        stilled |= joints;
+        for (int32_t k = 0; k < task->robot.num_actuators; k++) {
+            guarded[k].collides = (stilled >> k & 1u) != 0;
         }
-        lh_interlock(guarded, count_of_robot, whole, false, verdict);
+        lh_interlock(guarded, task->robot.num_actuators, whole, false, verdict);
     }
 }
 
