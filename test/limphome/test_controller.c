@@ -553,15 +553,12 @@ START_TEST(parts_are_kept_apart_once_they_are_known) {
         shapes.shape[2].link = 6;
         ck_assert_int_eq(lh_controller_keep_apart(&controller, &shapes), LH_ERROR_ROBOT);
         ck_assert_mem_eq(&controller, &other, sizeof controller);
-        int32_t lowered = 0;
         for (int32_t i = 0; i < 100; i++) {
             const lh_decision d = step(&controller, &state);
-            lowered += d.velocity[3] < 0.0f;
             lh_controller_gap(&controller); /* that it stays where it is tells nothing of its joints */
             ck_assert((d.intervention.hazards & LH_HAZARD_COLLISION) == 0 || (d.intervention.stilled & 0x1c) != 0);
         }
-        ck_assert(known ? lowered == 0 : lowered > 10);
-        ck_assert_int_eq(controller.monitor.counts.hazards[10] > 10, known);
+        ck_assert(known ? controller.monitor.counts.hazards[10] > 10 : controller.monitor.counts.hazards[10] == 0);
     }
 }
 END_TEST
