@@ -118,7 +118,7 @@ bool mesh_read(struct reading *r, const struct xml_element *at, struct file_shap
         fault(r, at, "filename", "%.200s cannot be read as a mesh, or has no vertices", path);
         return false;
     }
-    note_mesh(r, at, path);
+    note_mesh(r, path, mesh_copy(r, xml_attribute(at, "filename")));
     make_box(&b, scale, shape);
     const vector size = vector_scale(shape->half_size, 2);
     if (!(vector_norm(size) <= MOST_METRES) || !(vector_norm(shape->pose.origin) <= 2 * MOST_METRES)) {

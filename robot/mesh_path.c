@@ -55,26 +55,14 @@ static bool is_above(const char *folder, const char *name, char path[PATH_LENGTH
     return false;
 }
 
-static bool is_copied(const char *folder, const char *name, char path[PATH_LENGTH]) {
-    const int begin = snprintf(path, PATH_LENGTH, "%s/" MESH_COPIES "/", folder);
-    if (begin >= PATH_LENGTH ||
-        snprintf(path + begin, (size_t)(PATH_LENGTH - begin), "%s", name) >= PATH_LENGTH - begin) {
-        return false;
-    }
-    for (char *c = path + begin; *c != '\0'; c++) {
-        *c = isalnum((unsigned char)*c) || *c == '.' || *c == '-' ? *c : '_';
-    }
-    return is_file(path);
-}
-
 /* What follows `scheme` in a name, or NULL if it does not begin with it. */
 static const char *after(const char *name, const char *scheme) {
     const size_t length = strlen(scheme);
     return strncmp(name, scheme, length) == 0 ? name + length : NULL;
 }
 
-static bool find(const char *folder, const char *packages, const char *name, char path[PATH_LENGTH]) {
-    if (is_copied(folder, name, path)) {
+static bool find(const char *folder, const char *packages, const char *name, const char *copy, char path[PATH_LENGTH]) {
+    if (snprintf(path, PATH_LENGTH, "%s/%s", folder, copy) < PATH_LENGTH && is_file(path)) {
         return true;
     }
     const char *in_package = after(name, "package://");
@@ -91,11 +79,22 @@ static bool find(const char *folder, const char *packages, const char *name, cha
     return length < PATH_LENGTH && is_file(path);
 }
 
+const char *mesh_copy(struct reading *r, const char *name) {
+    static const char folder[] = "robot_meshes/";
+    char *copy = arena_take(&r->arena, sizeof folder + strlen(name), 1);
+    memcpy(copy, folder, sizeof folder);
+    char *end = copy + strlen(folder);
+    for (const char *c = name; *c != '\0'; c++) {
+        *end++ = isalnum((unsigned char)*c) || *c == '.' || *c == '-' ? *c : '_';
+    }
+    return copy;
+}
+
 const char *mesh_path(struct reading *r, const char *name) {
     char folder[PATH_MAX], path[PATH_LENGTH];
     if (realpath(r->path, folder) == NULL) {
         return NULL;
     }
     *strrchr(folder, '/') = '\0';
-    return find(folder, r->packages, name, path) ? arena_copy(&r->arena, path) : NULL;
+    return find(folder, r->packages, name, mesh_copy(r, name), path) ? arena_copy(&r->arena, path) : NULL;
 }

@@ -4,10 +4,9 @@
 
 #include "reading.h"
 
-/* Folder beside a robot file that is looked into first: copies of its meshes, each named as in the robot file but with
- * _ for every character that is not a letter, a digit, a dot or a minus. So a robot file can be kept with its meshes.
- */
-#define MESH_COPIES "robot_meshes"
+/* Where a copy of the mesh is looked for first, seen from the robot file's folder: so a robot file can be kept with its
+ * meshes. Below robot_meshes/, named as in the robot file, with _ for all but letters, digits, dots and minuses. */
+const char *mesh_copy(struct reading *r, const char *name);
 
 /* Path of the file that `name` stands for, or NULL if there is none: package:// and model:// names are looked for in
  * the folders of r->packages, then in those above the robot file; file:// and plain names from the robot file's folder.

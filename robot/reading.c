@@ -11,7 +11,7 @@
 /* What must be above 0 is not so only in double precision. */
 #define LEAST 1e-9
 
-enum { LINE_LENGTH = 1024, VALUE_LENGTH = 80 };
+enum { LINE_LENGTH = 1024, VALUE_LENGTH = 80, MOST_REMARKS = 1000 };
 
 /* Once round, and what rounding adds [rad]. */
 #define MOST_ANGLE (2 * 3.14159265358979323846 * 1.001)
@@ -21,21 +21,24 @@ struct remark {
     char *text;
 };
 
-static void add(struct remarks *remarks, unsigned long line, const char *text) {
-    if (remarks->count == remarks->room) {
-        remarks->room = 2 * remarks->room + 8;
-        struct remark *more = realloc(remarks->lines, (size_t)remarks->room * sizeof *more);
-        if (more == NULL) {
-            fprintf(stderr, "out of memory\n");
-            abort();
-        }
-        remarks->lines = more;
-    }
-    char *copy = strdup(text);
-    if (copy == NULL) {
+/* What reading takes is bounded; where there is none left, nothing can be told either. */
+static void *need(void *memory) {
+    if (memory == NULL) {
         fprintf(stderr, "out of memory\n");
         abort();
     }
+    return memory;
+}
+
+static void add(struct remarks *remarks, unsigned long line, const char *text) {
+    if (remarks->count == MOST_REMARKS) { /* nobody reads more */
+        return;
+    }
+    if (remarks->count == remarks->room) {
+        remarks->room = 2 * remarks->room + 8;
+        remarks->lines = need(realloc(remarks->lines, (size_t)remarks->room * sizeof *remarks->lines));
+    }
+    char *copy = need(strdup(text));
     for (char *c = copy; *c != '\0'; c++) { /* names may hold anything; a remark is one line */
         *c = (unsigned char)*c < ' ' ? ' ' : *c;
     }
@@ -116,8 +119,14 @@ void fault_in_line(struct reading *r, unsigned long line, const char *format, ..
     add(&r->faults, line, text);
 }
 
-void note_mesh(struct reading *r, const struct xml_element *at, const char *mesh) {
-    add(&r->meshes, at->line, mesh);
+void note_mesh(struct reading *r, const char *path, const char *copy) {
+    for (int i = 0; i < r->num_meshes; i++) {
+        if (strcmp(r->meshes[i].copy, copy) == 0) {
+            return;
+        }
+    }
+    r->meshes = need(realloc(r->meshes, (size_t)(r->num_meshes + 1) * sizeof *r->meshes));
+    r->meshes[r->num_meshes++] = (robot_mesh){need(strdup(path)), need(strdup(copy))};
 }
 
 /* In the order of the lines; what is of one line stays in its order. Few are out of order. */
@@ -129,11 +138,7 @@ static char **texts_in_order(struct remarks *remarks, int *count) {
             remarks->lines[k] = later;
         }
     }
-    char **texts = calloc((size_t)remarks->count + 1, sizeof *texts);
-    if (texts == NULL) {
-        fprintf(stderr, "out of memory\n");
-        abort();
-    }
+    char **texts = need(calloc((size_t)remarks->count + 1, sizeof *texts));
     for (int i = 0; i < remarks->count; i++) {
         texts[i] = remarks->lines[i].text;
     }
@@ -146,7 +151,8 @@ static char **texts_in_order(struct remarks *remarks, int *count) {
 void reading_report(struct reading *r, robot_report *report) {
     report->faults = texts_in_order(&r->faults, &report->num_faults);
     report->notices = texts_in_order(&r->notices, &report->num_notices);
-    report->meshes = texts_in_order(&r->meshes, &report->num_meshes);
+    report->meshes = r->meshes;
+    report->num_meshes = r->num_meshes;
 }
 
 const char *read_name(struct reading *r, const struct xml_element *at, const char *key) {

@@ -27,7 +27,9 @@ struct reading {
     const char *path;
     const char *packages;
     struct arena arena;
-    struct remarks faults, notices, meshes;
+    struct remarks faults, notices;
+    robot_mesh *meshes;
+    int num_meshes;
 };
 
 /* `key` is the attribute in question, shown with its value; NULL: none. */
@@ -38,8 +40,8 @@ void remark(struct reading *r, const struct xml_element *at, const char *key, co
 /* A fault that is none of an element's; line 0: of the whole file. */
 void fault_in_line(struct reading *r, unsigned long line, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* Notes that the file `mesh` was read besides. */
-void note_mesh(struct reading *r, const struct xml_element *at, const char *mesh);
+/* Notes that a file was read besides. */
+void note_mesh(struct reading *r, const char *path, const char *copy);
 
 /* Moves all remarks, in the order of the file, to the report. */
 void reading_report(struct reading *r, robot_report *report);

@@ -94,6 +94,10 @@ static void free_lines(char **lines, int count) {
 void robot_report_free(robot_report *report) {
     free_lines(report->faults, report->num_faults);
     free_lines(report->notices, report->num_notices);
-    free_lines(report->meshes, report->num_meshes);
+    for (int i = 0; i < report->num_meshes; i++) {
+        free(report->meshes[i].path);
+        free(report->meshes[i].copy);
+    }
+    free(report->meshes);
     *report = (robot_report){0};
 }

@@ -11,6 +11,11 @@
 extern "C" {
 #endif
 
+typedef struct robot_mesh {
+    char *path; /* of a file that was read besides */
+    char *copy; /* where a copy of it is found before all else, seen from the folder of the robot file */
+} robot_mesh;
+
 /* What reading had to say, a line each with file, line, element, what stands there and what is allowed; in the order of
  * the file. Owned by the caller, freed by robot_report_free. */
 typedef struct robot_report {
@@ -19,7 +24,7 @@ typedef struct robot_report {
     int num_notices;
     char **notices; /* [num_notices] what was taken otherwise than it stands there, and why */
     int num_meshes;
-    char **meshes; /* [num_meshes] files that were read besides */
+    robot_mesh *meshes; /* [num_meshes] */
 } robot_report;
 
 void robot_report_free(robot_report *report);

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /* Shapes may reach beyond a belt by this share of its radius and still be the belt. */
 #define BEYOND_BELT 0.05
@@ -166,27 +167,61 @@ static struct candidates gather(struct reading *r, const struct elements *e, con
     return all;
 }
 
-void touch_find(struct reading *r, const struct elements *e, const int order[MOST_LINKS], robot_description *robot) {
-    const struct candidates all = gather(r, e, order);
+/* Half the longest line through a shape. */
+static double bulk(const robot_shape *shape) {
+    return shape->kind == ROBOT_SPHERE ? shape->half_size[0] : vector_norm(vector_of(shape->half_size));
+}
+
+static int smaller_first(const void *a, const void *b) {
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+/* How large a shape must be for there to be room for it: the smallest go first. */
+static double least_bulk(struct reading *r, const struct elements *e, const struct candidates *all, int num_tips) {
+    const int count = all->count - num_tips, room = ROBOT_MAX_SHAPES - num_tips;
+    if (count <= room) {
+        return 0;
+    }
+    double *sizes = arena_take(&r->arena, (size_t)count, sizeof *sizes);
+    for (int i = 0; i < count; i++) {
+        sizes[i] = bulk(&all->list[num_tips + i].shape);
+    }
+    qsort(sizes, (size_t)count, sizeof *sizes, smaller_first);
+    const double least = sizes[count - room];
+    remark(r, e->robot, NULL,
+           "has %d shapes that may touch; the %d smallest, of at most %.3g m, are left out, for there is room for %d",
+           count, count - room, 2 * least, room);
+    return least;
+}
+
+/* Leaves out what is a belt; all else must be where it leaves the robot on its crawlers. */
+static void sort_out(struct reading *r, struct candidates *all, const robot_description *robot) {
     frame frames[ROBOT_MAX_BODIES];
+    int kept = 0;
     home_frames(robot, frames);
-    check_supports(r, e, robot);
-    for (int i = 0; i < all.count; i++) {
-        const struct candidate *c = &all.list[i];
+    for (int i = 0; i < all->count; i++) {
+        const struct candidate *c = &all->list[i];
         const frame pose = home_pose(&c->shape, frames);
         if (vector_norm(pose.origin) > 2 * MOST_METRES) {
             fault(r, c->at, NULL, "is more than %g m from the base", 2 * MOST_METRES);
-            continue;
+        } else if (i < robot->num_tips || !belongs_to_belt(r, c, &pose, robot)) {
+            check_above_ground(r, c, &pose, robot);
+            all->list[kept++] = *c;
         }
-        const bool is_tip = i < robot->num_tips;
-        if (!is_tip && belongs_to_belt(r, c, &pose, robot)) {
-            continue;
+    }
+    all->count = kept;
+}
+
+void touch_find(struct reading *r, const struct elements *e, const int order[MOST_LINKS], robot_description *robot) {
+    struct candidates all = gather(r, e, order);
+    check_supports(r, e, robot);
+    sort_out(r, &all, robot);
+    const double least = least_bulk(r, e, &all, robot->num_tips);
+    for (int i = 0; i < all.count; i++) {
+        const robot_shape *shape = &all.list[i].shape;
+        if ((i < robot->num_tips || bulk(shape) >= least) && robot->num_shapes < ROBOT_MAX_SHAPES) {
+            robot->shapes[robot->num_shapes++] = *shape;
         }
-        check_above_ground(r, c, &pose, robot);
-        if (robot->num_shapes == ROBOT_MAX_SHAPES) {
-            fault(r, c->at, NULL, "more than %d shapes, tips included", ROBOT_MAX_SHAPES);
-            return;
-        }
-        robot->shapes[robot->num_shapes++] = c->shape;
     }
 }

@@ -45,12 +45,12 @@ static void tell_loop(struct reading *r, const struct elements *e, int link) {
     do {
         const size_t length = strlen(text);
         if (length < sizeof text - 100) {
-            snprintf(text + length, sizeof text - length, "%s%.60s", length > 0 ? " on " : "", e->links[link].name);
+            snprintf(text + length, sizeof text - length, "%.60s on ", e->links[link].name);
         }
         link = e->joints[e->links[link].joint].parent;
     } while (link != start);
-    fault(r, e->joints[e->links[start].joint].at, NULL, "closes a loop: %s hangs on itself; links must be a tree",
-          text);
+    fault(r, e->joints[e->links[start].joint].at, NULL, "closes a loop: %s%.60s; links must be a tree", text,
+          e->links[start].name);
 }
 
 bool tree_resolve(struct reading *r, struct elements *e, int order[MOST_LINKS]) {

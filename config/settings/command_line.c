@@ -18,6 +18,7 @@ enum option_code {
     LCM_URL,
     OUT,
     EVALUATE,
+    LIST_MESHES,
     RESUME,
     CHECK,
     HELP,
@@ -41,6 +42,7 @@ static const struct option controller_options[] = {
     {"out", required_argument, NULL, OUT},
     {"resume", no_argument, NULL, RESUME},
     {"evaluate", required_argument, NULL, EVALUATE},
+    {"list-meshes", no_argument, NULL, LIST_MESHES},
     {NULL, 0, NULL, 0},
 };
 enum { SHARED_OPTIONS = 10 };
@@ -65,7 +67,9 @@ static const char files_help[] =
 static const char controller_help[] =
     "  --out DIR                write the run folder: episodes.csv, policy.lcm, checkpoint/, messages.lcmlog\n"
     "  --resume                 go on from the newest good checkpoint in DIR; with --check, tell which\n"
-    "  --evaluate POLICY        drive with a learned policy, without learning, [learning] episodes more\n";
+    "  --evaluate POLICY        drive with a learned policy, without learning, [learning] episodes more\n"
+    "  --list-meshes            print the files that the robot file needs besides, a line each: where a copy is found\n"
+    "                           first, seen from its folder, a tab, and the path; and exit\n";
 
 static const char *program_name(command_line_program program) {
     return program == COMMAND_LINE_CONTROLLER ? "limphome-controller" : "limphome-simulator";
@@ -126,6 +130,35 @@ static command_line_result settle(command_line *line, const char *config, const 
     return resolved == COMMAND_LINE_RUN ? check(line) : resolved;
 }
 
+/* An option that is kept as it stands; false if it is none. */
+static bool take(command_line *line, int code) {
+    switch (code) {
+        case PACKAGES:
+            line->packages = optarg;
+            return true;
+        case LCM_URL:
+            line->lcm_url = optarg;
+            return true;
+        case OUT:
+            line->out = optarg;
+            return true;
+        case EVALUATE:
+            line->evaluate = optarg;
+            return true;
+        case LIST_MESHES:
+            line->list_meshes = true;
+            return true;
+        case RESUME:
+            line->resume = true;
+            return true;
+        case CHECK:
+            line->check = true;
+            return true;
+        default:
+            return false;
+    }
+}
+
 command_line_result command_line_parse(int argc, char **argv, command_line_program program, command_line *line) {
     struct option options[sizeof controller_options / sizeof controller_options[0]];
     memcpy(options, controller_options, sizeof options);
@@ -154,24 +187,6 @@ command_line_result command_line_parse(int argc, char **argv, command_line_progr
             case ROBOT:
                 robot = optarg;
                 break;
-            case PACKAGES:
-                line->packages = optarg;
-                break;
-            case LCM_URL:
-                line->lcm_url = optarg;
-                break;
-            case OUT:
-                line->out = optarg;
-                break;
-            case EVALUATE:
-                line->evaluate = optarg;
-                break;
-            case RESUME:
-                line->resume = true;
-                break;
-            case CHECK:
-                line->check = true;
-                break;
             case PRINT_SETTINGS:
                 print_settings = true;
                 break;
@@ -184,9 +199,11 @@ command_line_result command_line_parse(int argc, char **argv, command_line_progr
             case VERSION:
                 printf("%s %s\n", program_name(program), LIMPHOME_VERSION);
                 return end_of_print();
-            default: /* getopt_long has said what is wrong */
-                fprintf(stderr, "try %s --help\n", program_name(program));
-                return COMMAND_LINE_BAD;
+            default:
+                if (!take(line, code)) { /* getopt_long has said what is wrong */
+                    fprintf(stderr, "try %s --help\n", program_name(program));
+                    return COMMAND_LINE_BAD;
+                }
         }
     }
     if (optind < argc) {

@@ -19,6 +19,7 @@ typedef struct command_line {
     const char *out;          /* controller: --out, the run folder, or NULL */
     const char *evaluate;     /* controller: --evaluate, a policy file, or NULL */
     bool resume;              /* controller: --resume */
+    bool list_meshes;         /* controller: --list-meshes: print them and exit */
     bool check;               /* --check: read and check all, and exit */
     char own_robot[CONFIG_PATH_LENGTH];
 } command_line;

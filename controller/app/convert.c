@@ -27,7 +27,6 @@ static lh_task_config convert_task(const settings *s) {
     return (lh_task_config){
         .crawler_speed = (float)s->action.crawler_speed,
         .joint_speed = (float)s->action.joint_speed,
-        .support_tolerance = lh_task_config_default().support_tolerance,
         .reward =
             {
                 .forward = (float)s->reward.forward,

@@ -14,12 +14,27 @@ static void on_signal(int number) {
     stop = number;
 }
 
+/* Prints what the robot file needs besides; whether it could be read. */
+static bool list_meshes(const command_line *line) {
+    static robot_description robot;
+    robot_report report;
+    const bool good = robot_file_read(line->robot, line->packages, &robot, &report);
+    for (int i = 0; i < report.num_meshes; i++) {
+        printf("%s\t%s\n", report.meshes[i].copy, report.meshes[i].path);
+    }
+    robot_report_free(&report);
+    return good && fflush(stdout) == 0;
+}
+
 int main(int argc, char **argv) {
     enum { DONE = 0, WENT_WRONG = 1, BAD_INPUT = 2, GAVE_UP = 3, STOPPED = 130 };
     command_line line;
     const command_line_result result = command_line_parse(argc, argv, COMMAND_LINE_CONTROLLER, &line);
     if (result != COMMAND_LINE_RUN) {
         return result == COMMAND_LINE_DONE ? DONE : BAD_INPUT;
+    }
+    if (line.list_meshes) {
+        return list_meshes(&line) ? DONE : BAD_INPUT;
     }
     static robot_description robot; /* both too large for a comfortable stack frame */
     static run r;

@@ -13,6 +13,7 @@
 #include "limphome/body/rest.h"
 #include "limphome/body/robot.h"
 #include "limphome/body/stability.h"
+#include "limphome/body/stance.h"
 #include "limphome/controller.h"
 #include "limphome/learning/action_values.h"
 #include "limphome/learning/boltzmann.h"

@@ -44,6 +44,7 @@ class RunFolder:
         self.path = Path(path).absolute()
         self.config = self.path / "config.ini"
         self.robot = self.path / "robot.urdf"
+        self.meshes = self.path / "robot_meshes"  # where the programs look for them first
         self.episodes = self.path / "episodes.csv"
         self.policy = self.path / "policy.lcm"
         self.checkpoints = self.path / "checkpoint"
@@ -163,10 +164,11 @@ def find_robot(robot):
     return own if Path(robot).name == str(robot) and not Path(robot).exists() and own.is_file() else Path(robot)
 
 
-def create(out, config, robot, assignments, controller_options=(), anew=False, real_time=False):
-    """Makes a run folder with its inputs, config.ini as resolved and robot.urdf, and takes it for this process. `out`
-    None: a new one below runs/. With `anew`, what an earlier run left there is removed. Without `real_time` there will
-    be no operator, and a plant that waits to be armed is refused.
+def create(out, config, robot, assignments, controller_options=(), anew=False, real_time=False, packages=None):
+    """Makes a run folder with its inputs, config.ini as resolved, robot.urdf and its meshes, and takes it for this
+    process. `out` None: a new one below runs/. With `anew`, what an earlier run left there is removed. Without
+    `real_time` there will be no operator, and a plant that waits to be armed is refused. `packages`: where package://
+    lies, as of the programs.
 
     Both programs read all of them before, with `controller_options`, so that what is bad leaves no folder behind."""
     robot = find_robot(robot)
@@ -177,35 +179,42 @@ def create(out, config, robot, assignments, controller_options=(), anew=False, r
     if not real_time and pace == "real_time":
         launch = f"{command.called('launch')} --arm"
         raise InputError(f"simulator.pace = real_time: the plant would wait for ever to be armed; {launch} arms it")
-    options = [*setting_options(config, assignments), "--robot", robot, "--check"]
+    named = ["--robot", robot, *(("--packages", packages) if packages else ())]
+    options = [*setting_options(config, assignments), *named, "--check"]
     ask("controller", *options, *controller_options)
     ask("simulator", *options)
+    meshes = dict(line.split("\t") for line in ask("controller", *named, "--list-meshes").splitlines())
     if out is None:
         seed = parse_settings(resolved, config)["learning"]["seed"]
         out = paths.new_run(f"{Path(config).stem}-seed{seed}")
     folder = RunFolder(out)
     try:
         _take_empty(folder, out, anew)
-        _write_inputs(folder, resolved, Path(robot).read_bytes())
+        _write_inputs(folder, resolved, Path(robot).read_bytes(), meshes)
     except OSError as error:
         raise InputError(f"{out}: cannot be made a run folder: {error.strerror}") from error
     return folder
 
 
-def _write_inputs(folder, config, robot):
-    """Both, or neither."""
+def _write_inputs(folder, config, robot, meshes):
+    """All, or none."""
     try:
         files.replace(folder.config, config)
+        for copy, mesh in meshes.items():
+            folder.meshes.mkdir(exist_ok=True)
+            files.replace(folder.path / copy, Path(mesh).read_bytes())
         files.replace(folder.robot, robot)
     except OSError:
         folder.config.unlink(missing_ok=True)
+        shutil.rmtree(folder.meshes, ignore_errors=True)
         raise
 
 
 def _begun(folder):
     """Whether there is more than what a script leaves that was killed while it made the folder."""
     made = {name for file in (folder.config, folder.robot, folder.manifest) for name in (file.name, f"{file.name}.new")}
-    return any(file.name not in made - {folder.manifest.name} for file in folder.others())
+    made = made - {folder.manifest.name} | {folder.meshes.name}
+    return any(file.name not in made for file in folder.others())
 
 
 def _take_empty(folder, out, anew):

@@ -12,6 +12,9 @@ constexpr double velocity_tolerance = 1e-7;
 // What a contact between two bodies gives way along its tangents at the least, as a share of what the ground does.
 constexpr double least_effect = 1e-6;
 
+// What moves against the ground by less than this sticks to it [m/s].
+constexpr double slowest_slip = 1e-5;
+
 }  // namespace
 
 void Solver::solve(btMultiBody &multibody, std::vector<JointConstraint> &joints, std::vector<Contact> &contacts,
@@ -38,7 +41,13 @@ void Solver::solve(btMultiBody &multibody, std::vector<JointConstraint> &joints,
     if (!all_held) {
         do {
             hold_joints(joints);
-            try_to_solve<max_dofs>(joints, contacts, time_step);
+            const bool arm_held = std::all_of(joints.begin() + num_crawlers, joints.end(),
+                                              [](const JointConstraint &joint) { return joint.held; });
+            if (arm_held) {
+                try_to_solve<base_dofs + num_crawlers>(joints, contacts, time_step);
+            } else {
+                try_to_solve<max_dofs>(joints, contacts, time_step);
+            }
         } while (release_overloaded(joints, contacts));
     }
 
@@ -51,6 +60,7 @@ void Solver::try_to_solve(std::vector<JointConstraint> &joints, std::vector<Cont
     prepare_contacts<dofs>(contacts, time_step);
     apply_known_impulses<dofs>(joints, contacts);
     iterate<dofs>(joints, contacts);
+    relieve<dofs>(contacts);
 }
 
 // Lets a joint give way that inverse_ has taken for rigid: inversion by bordering, which adds one rank.
@@ -78,6 +88,7 @@ void Solver::prepare_contacts(const std::vector<Contact> &contacts, double time_
     const double share = ground_.stiffness / (ground_.stiffness * time_step + ground_.damping);
     rows_.reserve(contacts.capacity());  // there may be more in a later step
     rows_.resize(contacts.size());
+    grips_.reserve(contacts.capacity());
     for (std::size_t i = 0; i < contacts.size(); i++) {
         const Contact &contact = contacts[i];
         const auto jacobian = contact.jacobian.topRows<dofs>();
@@ -160,6 +171,38 @@ double Solver::relax(Contact &contact, const ContactRow &row) {
     velocity_.head<dofs>() += row.response.topRows<dofs>().lazyProduct(change);
     contact.impulse += change;
     return row.effect.diagonal().cwiseProduct(change).cwiseAbs().maxCoeff();
+}
+
+template <int dofs>
+bool Solver::sticks(const Contact &contact, const ContactRow &row) const {
+    constexpr double at_limit = 1 - 1e-6;
+    const double limit = contact.friction * contact.impulse[0];
+    if (contact.impulse.tail<2>().norm() < at_limit * limit) {
+        return true;
+    }
+    Eigen::Vector2d slip = row.steady.tail<2>();
+    slip += contact.jacobian.block<dofs, 2>(0, 1).transpose().lazyProduct(velocity_.head<dofs>());
+    return limit > 0 && slip.norm() < slowest_slip;
+}
+
+// Takes out of the friction that sticks what has no effect, so that no drive bears it.
+template <int dofs>
+void Solver::relieve(std::vector<Contact> &contacts) {
+    grips_.clear();
+    for (std::size_t i = 0; i < contacts.size(); i++) {
+        const Contact &contact = contacts[i];
+        if (sticks<dofs>(contact, rows_[i])) {
+            Grip &grip = grips_.emplace_back();
+            grip.contact = i;
+            grip.response.topRows<dofs>() = rows_[i].response.block<dofs, 2>(0, 1);
+            grip.limit = contact.friction * contact.impulse[0];
+            grip.impulse = contact.impulse.tail<2>();
+        }
+    }
+    share_grip<dofs>(grips_);
+    for (const Grip &grip : grips_) {
+        contacts[grip.contact].impulse.tail<2>() = grip.impulse;
+    }
 }
 
 // Finds the impulses of the held joints. Those that ask too much of their drive are released, and true is returned: the

@@ -2,13 +2,14 @@
 //
 // Drives that reach their wanted rate are taken out of the equations exactly; what is left, the base with a few
 // contacts, is solved by projected Gauss-Seidel: each contact in turn is brought to a state that fulfils the law of its
-// ground spring and the law of friction (friction.h).
+// ground spring and the law of friction (friction.h). What that leaves open, the contacts then share (grip.h).
 #pragma once
 
 #include <vector>
 
 #include "bullet/contact.h"
 #include "bullet/friction.h"
+#include "bullet/grip.h"
 #include "bullet/mass_matrix.h"
 #include "model/drive.h"
 
@@ -37,7 +38,8 @@ class Solver {
 
     void hold_joints(const std::vector<JointConstraint> &joints);
     void release(int joint);
-    // Only the first `dofs` velocities change: those of the base, base_dofs, while all joints are held; else max_dofs.
+    // Only the first `dofs` velocities change: those of the base while all joints are held, of base and crawlers while
+    // those of the arm are; else max_dofs.
     template <int dofs>
     void try_to_solve(std::vector<JointConstraint> &joints, std::vector<Contact> &contacts, double time_step);
     template <int dofs>
@@ -49,6 +51,10 @@ class Solver {
     double relax(JointConstraint &joint, int dof);
     template <int dofs>
     double relax(Contact &contact, const ContactRow &row);
+    template <int dofs>
+    bool sticks(const Contact &contact, const ContactRow &row) const;
+    template <int dofs>
+    void relieve(std::vector<Contact> &contacts);
     bool release_overloaded(std::vector<JointConstraint> &joints, const std::vector<Contact> &contacts);
 
     int iterations_;
@@ -59,6 +65,7 @@ class Solver {
     GeneralVector free_;      // velocities without drives, stops and contacts
     GeneralVector velocity_;  // velocities so far
     std::vector<ContactRow> rows_;
+    std::vector<Grip> grips_;
 };
 
 }  // namespace limphome

@@ -22,7 +22,6 @@ START_TEST(default_settings_are_the_librarys_defaults) {
 #define SAME(field) ck_assert_double_eq((double)config.field, (double)standard.field)
     SAME(task.crawler_speed);
     SAME(task.joint_speed);
-    SAME(task.support_tolerance);
     SAME(task.reward.forward);
     SAME(task.reward.sideways);
     SAME(task.reward.turn);

@@ -22,6 +22,8 @@ for program in limphome-controller limphome-simulator; do
     rm smoke.ini
 done
 
+limphome-describe two_arm.urdf | grep '^robot two_arm: '
+
 # the default robot, then another by its name
 for robot in "" "--robot two_arm.urdf"; do
     # shellcheck disable=SC2086 # several words

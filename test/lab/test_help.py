@@ -17,6 +17,7 @@ SCRIPTS = (
     "launch",
     "plot",
     "results",
+    "robot",
     "setup",
     "soak",
     "spy",

@@ -35,7 +35,7 @@ def installed(tmp_path_factory):
 def prefix(tmp_path):
     """Programs and files where `cmake --install` puts them."""
     (tmp_path / "prefix" / "bin").mkdir(parents=True)
-    for name in ("controller", "simulator"):
+    for name in ("controller", "simulator", "describe"):
         shutil.copy(paths.program(name), tmp_path / "prefix" / "bin")
     shutil.copytree(paths.CONFIG, tmp_path / "prefix" / "share" / "limphome" / "config")
     return tmp_path / "prefix"
@@ -53,7 +53,7 @@ def test_package_and_messages_can_be_imported(installed, tmp_path):
     assert result.stdout.startswith(f"True {installed.parent}"), result.stderr
 
 
-@pytest.mark.parametrize("name", ["train", "evaluate", "launch", "spy", "plot", "study", "diagnose"])
+@pytest.mark.parametrize("name", ["train", "evaluate", "launch", "spy", "plot", "study", "diagnose", "robot"])
 def test_commands_go_by_their_own_names(installed, tmp_path, name):
     result = run(tmp_path, [installed / f"limphome-{name}", "--help"])
     assert result.returncode == 0, result.stderr

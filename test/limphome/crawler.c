@@ -33,6 +33,19 @@ lh_robot crawler_robot(void) {
     return robot;
 }
 
+lh_robot scaled_robot(const lh_robot *robot, float factor) {
+    lh_robot scaled = *robot;
+    for (int32_t i = 0; i < scaled.num_links; i++) {
+        scaled.links[i].origin = lh_vec3_scale(scaled.links[i].origin, factor);
+        scaled.links[i].centre = lh_vec3_scale(scaled.links[i].centre, factor);
+    }
+    for (int32_t i = 0; i < scaled.num_supports; i++) {
+        scaled.supports[i].point = lh_vec3_scale(scaled.supports[i].point, factor);
+        scaled.supports[i].radius *= factor;
+    }
+    return scaled;
+}
+
 lh_controlled crawler_controlled(void) {
     return (lh_controlled){.count = 4, .index = {1, 2, 3, 4}};
 }

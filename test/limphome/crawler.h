@@ -11,6 +11,9 @@ lh_robot crawler_robot(void);
 lh_shapes crawler_shapes(void);
 
 /* As in the paper with the left crawler failed: right crawler, swing, boom, arm. */
+/* The same with all lengths by that factor. */
+lh_robot scaled_robot(const lh_robot *robot, float factor);
+
 lh_controlled crawler_controlled(void);
 
 /* Level at (x, y), arm in its initial pose, no torque. */

@@ -18,7 +18,7 @@ enum {
     SCRATCH = 4 * S * (3 * A + 6) + 4 * LH_MAX_UNITS * LH_COLUMN_SLOTS,
     Q_LEARNING = NETWORK + SCRATCH + 4 * LH_MAX_ACTIONS + 4 * A + 136,
     PLANNER_LEARNED = 22 * LH_MAX_SAMPLES + 20 * LH_MAX_POSTURES + 120,
-    PLANNER = PLANNER_LEARNED + (52 + K) * B + 8 * A * P + 24 * A + 64 * LH_MAX_LINKS + 36 * P + 8 * W + 8 * K + 740,
+    PLANNER = PLANNER_LEARNED + (52 + K) * B + 8 * A * P + 24 * A + 64 * LH_MAX_LINKS + 36 * P + 8 * W + 8 * K + 736,
     LEARNER = (Q_LEARNING > PLANNER ? Q_LEARNING : PLANNER) + 12,
     TASK = 20 * A + 64 * LH_MAX_LINKS + 20 * P + 8 * W + 192,
     MONITOR = 14 * A + 4 * LH_MAX_LINKS + 48 * LH_MAX_SHAPES + 236,

@@ -2,6 +2,7 @@
 # are billions of double-precision operations, without an FPU for them on the boards; comparing bits says more there.
 set(limphome_test_modules
   base/error base/random base/vector body/kinematics body/quasi_static body/rest body/robot body/stability
+  body/stance
   task/action task/episode task/observation task/path task/reward task/task
   learning/boltzmann learning/learner learning/motion_model learning/network learning/planned learning/planner
   learning/planning learning/posture_values learning/q_learning

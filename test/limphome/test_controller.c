@@ -47,8 +47,6 @@ START_TEST(bad_fields_are_named) {
     BAD(task.joint_speed, 2.1f, LH_ERROR_SPEED);
     BAD(learner.q_learning.temperature_floor, 0.0f, LH_ERROR_LIMIT);
     BAD(learner.q_learning.temperature_floor, 11.0f, LH_ERROR_LIMIT);
-    BAD(task.support_tolerance, NAN, LH_ERROR_LIMIT);
-    BAD(task.support_tolerance, 1.1f, LH_ERROR_LIMIT);
     BAD(learner.q_learning.learning_rate, -0.1f, LH_ERROR_RATE);
     BAD(learner.q_learning.network.units, 0, LH_ERROR_UNITS);
     BAD(learner.q_learning.network.width_floor, 0.0f, LH_ERROR_LIMIT);

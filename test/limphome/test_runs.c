@@ -175,7 +175,7 @@ static void quasi_static_move(toy *p, const lh_controller *c, const float *veloc
     }
     lh_rest rest;
     lh_footing footing;
-    lh_rest_find(&c->task.robot, angle, level, 0.03f, &rest);
+    lh_rest_find(&c->task.robot, angle, level, &rest);
     lh_footing_find(&c->task.robot, angle, &rest, level, planned->travel, 0.7f, &footing);
     const lh_twist t = lh_quasi_static_motion(&footing, 5, share);
     const float midway = p->heading + 0.5f * t.turn;
@@ -192,7 +192,7 @@ static lh_state lying_state(const toy *p, const lh_controller *c) {
     memcpy(&state.actuator_position[2], p->joint, sizeof p->joint);
     const float angle[LH_MAX_ACTUATORS] = {0.0f, 0.0f, p->joint[0], p->joint[1], p->joint[2]};
     lh_rest rest;
-    lh_rest_find(&c->task.robot, angle, (lh_vec3){0.0f, 0.0f, 1.0f}, 0.03f, &rest);
+    lh_rest_find(&c->task.robot, angle, (lh_vec3){0.0f, 0.0f, 1.0f}, &rest);
     state.orientation = lh_quat_multiply(state.orientation, lh_rest_upright(rest.normal));
     return state;
 }

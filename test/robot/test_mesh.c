@@ -83,6 +83,7 @@ static void expect_slab(void) {
         ck_assert_double_eq_tol(slab->pose.position[i], half[i] + (i == 0), 1e-7);
     }
     ck_assert_int_eq(m.report.num_meshes, 1);
+    ck_assert_int_eq(strncmp(m.report.meshes[0].copy, "robot_meshes/", strlen("robot_meshes/")), 0);
     ck_assert(edited_says(m.report.notices, m.report.num_notices, "taken as the box round it, 0.4 x 0.2 x 0.1 m"));
 }
 
@@ -118,7 +119,7 @@ START_TEST(packages_are_looked_for_where_the_caller_says) {
     expect_slab();
     char path[200];
     snprintf(path, sizeof path, "%s/elsewhere/far/meshes/slab.obj", m.folder);
-    ck_assert_str_eq(m.report.meshes[0], path);
+    ck_assert_str_eq(m.report.meshes[0].path, path);
     robot_report_free(&m.report);
     snprintf(mesh, sizeof mesh, "filename='file://%s'", path); /* wherever it is */
     read_with("collision", mesh, NULL);

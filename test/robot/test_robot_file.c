@@ -137,7 +137,7 @@ static const struct {
     {"<parent link=\"boom\"/>", "<parent link=\"arm\"/>", "<joint name=\"arm\">: link arm would hang on itself"},
     {"<parent link=\"boom\"/>", "<parent link=\"nowhere\"/>", "<parent link=\"nowhere\">: there is no such link"},
     {"<parent link=\"boom\"/>", "", "<joint name=\"arm\">: needs <parent"},
-    {"<parent link=\"upper_body\"/>", "<parent link=\"arm\"/>", "closes a loop: boom on arm hangs on itself"},
+    {"<parent link=\"upper_body\"/>", "<parent link=\"arm\"/>", "closes a loop: boom on arm on boom; links"},
     {"<child link=\"arm\"/>", "<child link=\"upper_body\"/>", "link upper_body hangs on joint swing already (line 48)"},
     {"<link name=\"left_sprocket\">", "<link name=\"spare\"/><link name=\"left_sprocket\">",
      "<link name=\"spare\">: hangs on no joint, nor does link base (line 11)"},

@@ -97,6 +97,29 @@ START_TEST(a_support_in_the_ground_is_refused) {
 }
 END_TEST
 
+/* The smallest are left out where there are too many. */
+START_TEST(there_is_room_for_the_largest_shapes) {
+    static char shapes[20000];
+    shapes[0] = '\0';
+    for (int i = 0; i < 100; i++) {
+        char shape[150];
+        snprintf(shape, sizeof shape,
+                 "<collision><origin xyz='0 0 0.4'/><geometry><sphere radius='%g'/></geometry></collision>",
+                 0.01 + 1e-3 * i);
+        strcat(shapes, shape);
+    }
+    strcat(shapes, "</link>");
+    read_with("base", shapes);
+    edited_expect_notice(&e, "has 102 shapes that may touch; the 39 smallest, of at most 0.098 m, are left out");
+    ck_assert_int_eq(e.robot.num_shapes, ROBOT_MAX_SHAPES);
+    ck_assert_str_eq(e.robot.shapes[0].name, "arm"); /* the tip */
+    for (int i = 1; i < e.robot.num_shapes; i++) {
+        ck_assert_double_ge(e.robot.shapes[i].half_size[0], 0.0489);
+    }
+    edited_end(&e);
+}
+END_TEST
+
 int main(void) {
     TCase *cases = tcase_create("touch");
     tcase_add_loop_test(cases, shapes_that_are_the_belt_are_left_out, 0, (int)(sizeof belts / sizeof belts[0]));
@@ -105,5 +128,6 @@ int main(void) {
     tcase_add_test(cases, hubs_are_kept);
     tcase_add_test(cases, a_tip_in_the_ground_is_refused);
     tcase_add_test(cases, a_support_in_the_ground_is_refused);
+    tcase_add_test(cases, there_is_room_for_the_largest_shapes);
     return run_suite("touch", cases);
 }

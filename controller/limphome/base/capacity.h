@@ -9,7 +9,7 @@
  *     lh_action_scratch  4 S (3 A + 6) + 4 U C
  *     lh_q_learning      lh_network + lh_action_scratch + 4 LH_MAX_ACTIONS + 4 A + 136
  *     lh_planner_learned 22 N + 20 M + 120
- *     lh_planner         lh_planner_learned + (52 + K) B + 8 A P + 24 A + 64 L + 36 P + 8 W + 8 K + 740
+ *     lh_planner         lh_planner_learned + (52 + K) B + 8 A P + 24 A + 64 L + 36 P + 8 W + 8 K + 736
  *     lh_learner         the larger of lh_q_learning and lh_planner, + 12
  *     lh_task            20 A + 64 L + 20 P + 8 W + 192
  *     lh_monitor         14 A + 4 L + 48 H + 236

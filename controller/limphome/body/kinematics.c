@@ -2,22 +2,8 @@
 
 #include "limphome/body/frame.h"
 
-/* Supports within `tolerance` of the lowest. */
-static void find_carrying(const lh_robot *robot, float tolerance, lh_posture *posture) {
-    float lowest = posture->supports[0].z;
-    for (int32_t i = 1; i < robot->num_supports; i++) {
-        lowest = posture->supports[i].z < lowest ? posture->supports[i].z : lowest;
-    }
-    for (int32_t i = 0; i < robot->num_supports; i++) {
-        if (posture->supports[i].z - lowest <= tolerance) {
-            posture->carrying[posture->num_carrying++] = i;
-        }
-    }
-}
-
-void lh_kinematics_posture(const lh_robot *robot, lh_quat attitude, const float *joint_angle, float tolerance,
-                           lh_posture *posture) {
-    *posture = (lh_posture){.num_carrying = 0};
+void lh_kinematics_posture(const lh_robot *robot, lh_quat attitude, const float *joint_angle, lh_posture *posture) {
+    *posture = (lh_posture){.centre_of_mass = {0.0f, 0.0f, 0.0f}};
     lh_frame frames[LH_MAX_LINKS];
     lh_frames_of_links(robot, attitude, joint_angle, frames);
     float mass = 0.0f;
@@ -34,5 +20,4 @@ void lh_kinematics_posture(const lh_robot *robot, lh_quat attitude, const float 
         posture->supports[i] = lh_frame_point(&frames[support->link], support->point);
         posture->supports[i].z -= support->radius;
     }
-    find_carrying(robot, tolerance, posture);
 }

@@ -54,7 +54,7 @@ static void find_shift_by_joint(const lh_robot *robot, lh_quat attitude, const f
     memcpy(angle, joint_angle, sizeof(float) * (size_t)robot->num_actuators);
     angle[joint] += SMALL_TURN;
     lh_posture posture;
-    lh_kinematics_posture(robot, attitude, angle, 1.0f, &posture);
+    lh_kinematics_posture(robot, attitude, angle, &posture);
     for (int32_t i = 0; i < footing->count; i++) {
         lh_vec3 point = posture.supports[rest->carrying[i]];
         footing->shift_x[joint][i] = (point.x - footing->x[i]) * (travel / SMALL_TURN);
@@ -78,7 +78,7 @@ void lh_footing_find(const lh_robot *robot, const float *joint_angle, const lh_r
     footing->count = rest->num_carrying;
     lh_quat attitude = lh_rest_upright(rest->normal);
     lh_posture posture;
-    lh_kinematics_posture(robot, attitude, joint_angle, 1.0f, &posture);
+    lh_kinematics_posture(robot, attitude, joint_angle, &posture);
     for (int32_t i = 0; i < footing->count; i++) {
         lh_vec3 point = posture.supports[rest->carrying[i]];
         footing->x[i] = point.x;

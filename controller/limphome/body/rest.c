@@ -6,9 +6,13 @@
 #include "limphome/body/kinematics.h"
 #include "limphome/body/stability.h"
 
-#define LEAST_LEVEL 0.3f       /* of a plane to rest on: z of its normal in the body frame */
-#define LEAST_SQUARE 1e-12f    /* of the cross product of two sides of a triangle [m^4]; below, they are in a line */
+#define LEAST_LEVEL 0.3f    /* of a plane to rest on: z of its normal in the body frame */
+#define LEAST_SQUARE 1e-12f /* of the cross product of two sides of a triangle [m^4]; below, they are in a line */
+/* For a robot of scale 1 (robot.h): */
 #define BELOW_GROUND (-0.005f) /* a support this deep is taken to lie on the ground [m] */
+#define NEAR_GROUND                                                                              \
+    0.03f /* one no higher than this carries [m]: more than in stance.h, as joints are not quite \
+             where they are told to go */
 
 /* A plane on which the robot may rest, in the body frame. */
 typedef struct plane {
@@ -24,8 +28,10 @@ static float height(const plane *ground, lh_vec3 point) {
     return lh_vec3_dot(ground->normal, lh_vec3_sub(point, ground->point));
 }
 
-/* The plane through three supports; false if it is none, is steep, or another support is below it. */
-static bool find_plane(const lh_robot *robot, const lh_posture *posture, const int32_t corner[3], plane *ground) {
+/* The plane through three supports of a robot of that scale; false if it is none, is steep, or another support is below
+ * it. */
+static bool find_plane(const lh_robot *robot, float scale, const lh_posture *posture, const int32_t corner[3],
+                       plane *ground) {
     lh_vec3 a = posture->supports[corner[0]];
     lh_vec3 normal =
         lh_vec3_cross(lh_vec3_sub(posture->supports[corner[1]], a), lh_vec3_sub(posture->supports[corner[2]], a));
@@ -36,7 +42,7 @@ static bool find_plane(const lh_robot *robot, const lh_posture *posture, const i
         return false;
     }
     for (int32_t i = 0; i < robot->num_supports; i++) {
-        if (height(ground, posture->supports[i]) < BELOW_GROUND) {
+        if (height(ground, posture->supports[i]) < BELOW_GROUND * scale) {
             return false;
         }
     }
@@ -65,9 +71,10 @@ static lh_rest stand(const lh_robot *robot, const lh_posture *posture, const pla
     return rest;
 }
 
-void lh_rest_find(const lh_robot *robot, const float *joint_angle, lh_vec3 up, float tolerance, lh_rest *rest) {
+void lh_rest_find(const lh_robot *robot, const float *joint_angle, lh_vec3 up, lh_rest *rest) {
+    const float scale = lh_robot_scale(robot);
     lh_posture posture;
-    lh_kinematics_posture(robot, (lh_quat){1.0f, 0.0f, 0.0f, 0.0f}, joint_angle, tolerance, &posture);
+    lh_kinematics_posture(robot, (lh_quat){1.0f, 0.0f, 0.0f, 0.0f}, joint_angle, &posture);
     *rest = (lh_rest){.margin = LH_NO_REST_MARGIN, .normal = {0.0f, 0.0f, 1.0f}};
     float lowest = FLT_MAX;
     for (int32_t i = 0; i < robot->num_supports; i++) {
@@ -75,14 +82,14 @@ void lh_rest_find(const lh_robot *robot, const float *joint_angle, lh_vec3 up, f
             for (int32_t k = j + 1; k < robot->num_supports; k++) {
                 const int32_t corner[3] = {i, j, k};
                 plane ground;
-                if (!find_plane(robot, &posture, corner, &ground)) {
+                if (!find_plane(robot, scale, &posture, corner, &ground)) {
                     continue;
                 }
                 float centre_height = height(&ground, posture.centre_of_mass);
                 if (centre_height >= lowest) {
                     continue;
                 }
-                lh_rest candidate = stand(robot, &posture, &ground, up, tolerance);
+                lh_rest candidate = stand(robot, &posture, &ground, up, NEAR_GROUND * scale);
                 if (candidate.margin >= 0.0f) {
                     *rest = candidate;
                     lowest = centre_height;

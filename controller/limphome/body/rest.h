@@ -27,9 +27,9 @@ lh_quat lh_rest_upright(lh_vec3 from);
 /* Of all triples of supports that can carry the robot, those below which no other support reaches and over which its
  * centre of mass lies, the one that brings the centre of mass lowest.
  * joint_angle[robot->num_actuators] as for lh_kinematics_posture; `up` is the vertical, unit length, in the frame of
- * the ground: z its normal, x along the robot's heading; (0, 0, 1) where it is level. Supports within `tolerance` [m]
- * of the ground carry, too. */
-void lh_rest_find(const lh_robot *robot, const float *joint_angle, lh_vec3 up, float tolerance, lh_rest *rest);
+ * the ground: z its normal, x along the robot's heading; (0, 0, 1) where it is level. Supports within
+ * 3 cm of the ground carry, too, times lh_robot_scale(). */
+void lh_rest_find(const lh_robot *robot, const float *joint_angle, lh_vec3 up, lh_rest *rest);
 
 #ifdef __cplusplus
 }

@@ -2,6 +2,8 @@
 
 #include "limphome/base/elementary.h"
 
+#define PAPERS_ROBOT 0.625f /* what is farthest from its middle of that on which it stands [m] */
+
 static bool is_good_actuator(const lh_actuator *actuator) {
     bool is_joint = actuator->kind == LH_JOINT;
     bool good_range = lh_within(actuator->low, -LH_ANGLE_LIMIT, LH_ANGLE_LIMIT) &&
@@ -78,4 +80,17 @@ lh_error lh_robot_validate(const lh_robot *robot) {
         }
     }
     return mass >= LH_LEAST_MASS ? LH_OK : LH_ERROR_ROBOT;
+}
+
+float lh_robot_scale(const lh_robot *robot) {
+    float farthest = 0.0f;
+    for (int32_t i = 0; i < robot->num_supports; i++) {
+        if (robot->supports[i].link == 0) {
+            float x = lh_magnitude(robot->supports[i].point.x);
+            float y = lh_magnitude(robot->supports[i].point.y);
+            farthest = x > farthest ? x : farthest;
+            farthest = y > farthest ? y : farthest;
+        }
+    }
+    return lh_clip(farthest / PAPERS_ROBOT, LH_SCALE_MIN, LH_SCALE_MAX);
 }

@@ -60,6 +60,14 @@ typedef struct lh_robot {
  * mass must be LH_LEAST_MASS or more. */
 lh_error lh_robot_validate(const lh_robot *robot);
 
+/* How many times as large as the paper's robot, LH_SCALE_MIN to LH_SCALE_MAX: how far the supports of its base are from
+ * its middle, forward or sideways, over 0.625 m. What counts as small or near is so against the robot, not in metres.
+ */
+float lh_robot_scale(const lh_robot *robot);
+
+#define LH_SCALE_MIN 0.001f
+#define LH_SCALE_MAX 1000.0f
+
 #ifdef __cplusplus
 }
 #endif

@@ -137,7 +137,7 @@ static void learn(lh_planner *planner, const lh_pose2 *now, const float *angle) 
 /* The slope of the ground, from how the body lies on it. */
 static void watch_ground(lh_planner *planner, const lh_observed *observed) {
     lh_rest rest;
-    lh_rest_find(&planner->robot, observed->joint_angle, vertical, planner->task.support_tolerance, &rest);
+    lh_rest_find(&planner->robot, observed->joint_angle, vertical, &rest);
     lh_vec3 normal = lh_quat_rotate(observed->attitude, rest.normal);
     if (normal.z > LH_LEAST_GROUND) {
         lh_vec3 *ground = &planner->learned.ground;

@@ -7,7 +7,7 @@
 #include "limphome/base/elementary.h"
 
 #define FRICTION 0.7f      /* guess, of use on slopes: rubber on concrete */
-#define SAFE_MARGIN 0.02f  /* S_safe [m] */
+#define SAFE_MARGIN 0.02f  /* S_safe [m], times lh_robot_scale() */
 #define LACKING_MAX 3.0f   /* of 1 - S / S_safe */
 #define STEERING_BEND 0.1f /* the penalty is quadratic up to here, linear beyond [rad] */
 #define KNOWN 0.1f         /* weight of samples at which half of the doubt is gone */
@@ -26,7 +26,8 @@ static float steering_cost(const lh_planner *planner, float error) {
 
 /* Cost of standing for a decision in a posture with this margin [m]. */
 static float standing_cost(const lh_planner *planner, float margin) {
-    float lacking = lh_clip(1.0f - margin / SAFE_MARGIN, 0.0f, LACKING_MAX);
+    float safe = SAFE_MARGIN * lh_robot_scale(&planner->robot);
+    float lacking = lh_clip(1.0f - margin / safe, 0.0f, LACKING_MAX);
     return planner->task.reward.stability * lh_exp(-margin) + planner->config.unsafe * lacking;
 }
 
@@ -34,7 +35,7 @@ static float standing_cost(const lh_planner *planner, float margin) {
 static void find_rest(const lh_planner *planner, const float *angle, float *joint_angle, lh_rest *rest) {
     memcpy(joint_angle, planner->joint_angle, sizeof planner->joint_angle);
     lh_planned_set_angles(&planner->planned, angle, joint_angle);
-    lh_rest_find(&planner->robot, joint_angle, planner->up, planner->task.support_tolerance, rest);
+    lh_rest_find(&planner->robot, joint_angle, planner->up, rest);
 }
 
 void lh_planning_assess(lh_planner *planner) {

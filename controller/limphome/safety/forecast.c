@@ -14,15 +14,14 @@ static lh_vec3 vertical_of_ground(lh_quat attitude, const lh_rest *rest) {
     return normal.z > LEAST_GROUND ? lh_quat_rotate(lh_rest_upright(normal), vertical) : vertical;
 }
 
-lh_forecast lh_forecast_margin(const lh_robot *robot, lh_quat attitude, const float *angle, const float *next,
-                               float tolerance) {
+lh_forecast lh_forecast_margin(const lh_robot *robot, lh_quat attitude, const float *angle, const float *next) {
     lh_rest rest;
-    lh_rest_find(robot, angle, vertical, tolerance, &rest);
+    lh_rest_find(robot, angle, vertical, &rest);
     lh_vec3 up = vertical_of_ground(attitude, &rest);
     lh_forecast forecast;
-    lh_rest_find(robot, angle, up, tolerance, &rest);
+    lh_rest_find(robot, angle, up, &rest);
     forecast.still = rest.margin;
-    lh_rest_find(robot, next, up, tolerance, &rest);
+    lh_rest_find(robot, next, up, &rest);
     forecast.moving = rest.margin;
     return forecast;
 }

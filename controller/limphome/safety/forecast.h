@@ -15,9 +15,8 @@ typedef struct lh_forecast {
 } lh_forecast;
 
 /* With angle[robot->num_actuators] [rad] now and next[robot->num_actuators] after the action. The slope of the ground
- * is what the attitude, body to world and of unit length, leaves to be explained. `tolerance` as in rest.h. */
-lh_forecast lh_forecast_margin(const lh_robot *robot, lh_quat attitude, const float *angle, const float *next,
-                               float tolerance);
+ * is what the attitude, body to world and of unit length, leaves to be explained. */
+lh_forecast lh_forecast_margin(const lh_robot *robot, lh_quat attitude, const float *angle, const float *next);
 
 #ifdef __cplusplus
 }

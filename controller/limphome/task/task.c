@@ -5,6 +5,7 @@
 #include "limphome/base/elementary.h"
 #include "limphome/body/kinematics.h"
 #include "limphome/body/stability.h"
+#include "limphome/body/stance.h"
 #include "limphome/task/action.h"
 
 /* What a state tells, beside the inputs. */
@@ -18,7 +19,6 @@ lh_task_config lh_task_config_default(void) {
     return (lh_task_config){
         .crawler_speed = 0.3f,
         .joint_speed = 0.3f,
-        .support_tolerance = 0.03f,
         .reward = lh_reward_config_default(),
         .episode = lh_episode_config_default(),
         .path = lh_path_config_default(),
@@ -29,9 +29,6 @@ lh_error lh_task_config_validate(const lh_task_config *config) {
     if (!lh_within(config->crawler_speed, LH_SPEED_MIN, LH_SPEED_MAX) ||
         !lh_within(config->joint_speed, LH_SPEED_MIN, LH_SPEED_MAX)) {
         return LH_ERROR_SPEED;
-    }
-    if (!lh_within(config->support_tolerance, LH_SUPPORT_TOLERANCE_MIN, LH_SUPPORT_TOLERANCE_MAX)) {
-        return LH_ERROR_LIMIT;
     }
     lh_error error = lh_reward_config_validate(&config->reward);
     if (error == LH_OK) {
@@ -93,17 +90,16 @@ void lh_task_gap(lh_task *task) {
 
 static situation assess(const lh_task *task, const lh_state *state, lh_quat attitude) {
     lh_posture posture;
-    lh_kinematics_posture(&task->robot, attitude, state->actuator_position, task->config.support_tolerance, &posture);
-    //@ split posture.num_carrying; // for Frama-C: so many are set
-    lh_vec3 carrying[LH_MAX_SUPPORTS];
-    for (int32_t i = 0; i < posture.num_carrying; i++) {
-        carrying[i] = posture.supports[posture.carrying[i]];
-    }
-    return (situation){
+    lh_kinematics_posture(&task->robot, attitude, state->actuator_position, &posture);
+    lh_stance stance;
+    lh_stance_find(&task->robot, &posture, &stance);
+    situation now = {
         .pose = {state->position[0], state->position[1], lh_quat_heading(attitude)},
         .tilt = lh_quat_tilt(attitude),
-        .margin = lh_stability_margin(carrying, posture.num_carrying, posture.centre_of_mass),
     };
+    //@ split stance.count; // for Frama-C: so many are set
+    now.margin = lh_stability_margin(stance.points, stance.count, posture.centre_of_mass);
+    return now;
 }
 
 /* Rewards (8), (9), (12) and the penalty for tumbling, of the step that led here. */

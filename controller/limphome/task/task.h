@@ -18,9 +18,8 @@ extern "C" {
 #endif
 
 typedef struct lh_task_config {
-    float crawler_speed;     /* of the forward and reverse levels, LH_SPEED_MIN to LH_SPEED_MAX [m/s]; paper: 0.3 */
-    float joint_speed;       /* of the forward and reverse levels, LH_SPEED_MIN to LH_SPEED_MAX [rad/s]; paper: 0.3 */
-    float support_tolerance; /* LH_SUPPORT_TOLERANCE_MIN to _MAX of kinematics.h [m]; default 0.03 */
+    float crawler_speed; /* of the forward and reverse levels, LH_SPEED_MIN to LH_SPEED_MAX [m/s]; paper: 0.3 */
+    float joint_speed;   /* of the forward and reverse levels, LH_SPEED_MIN to LH_SPEED_MAX [rad/s]; paper: 0.3 */
     lh_reward_config reward;
     lh_episode_config episode;
     lh_path_config path;

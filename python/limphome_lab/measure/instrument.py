@@ -9,7 +9,7 @@ import numpy as np
 from limphome import ground_truth_t
 from limphome_lab import paths
 from limphome_lab.measure.validation.statics import GRAVITY
-from limphome_lab.urdf import rotation_of
+from limphome_lab.robot import rotation_of
 
 PAPER = paths.CONFIG / "paper.ini"
 CRAWLER = paths.CONFIG / "crawler.urdf"

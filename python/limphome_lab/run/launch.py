@@ -21,6 +21,7 @@ def parse_arguments():
     )
     parser.add_argument("--config", help="experiment (INI); default config/default.ini, or the run's")
     parser.add_argument("--robot", help="robot (URDF); default config/crawler.urdf, or the run's")
+    parser.add_argument("--packages", metavar="DIR[:DIR]", help="where package:// of the robot's meshes is looked for")
     parser.add_argument("--policy", metavar="RUN", help="drive with the policy of this run instead of learning")
     parser.add_argument(
         "--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="one setting; repeatable"
@@ -38,7 +39,9 @@ def make_folder(args):
         config, robot, options = trained.config, trained.robot, ["--evaluate", trained.policy]
     settings = [f"learning.episodes={UNTIL_STOPPED}", "simulator.pace=real_time", "link.give_up_s=0", *args.set]
     out = paths.new_run("launch")
-    return runfolder.create(out, args.config or config, args.robot or robot, settings, real_time=True), options
+    robot = args.robot or robot
+    folder = runfolder.create(out, args.config or config, robot, settings, real_time=True, packages=args.packages)
+    return folder, options
 
 
 def show(episode):

@@ -25,6 +25,7 @@ def parse_arguments():
     parser = command.parser("train", "Trains a policy and leaves a run folder.", "--seed 2 --episodes 100")
     parser.add_argument("--config", help="experiment (INI); default config/default.ini")
     parser.add_argument("--robot", help="robot (URDF); default config/crawler.urdf")
+    parser.add_argument("--packages", metavar="DIR[:DIR]", help="where package:// of the robot's meshes is looked for")
     parser.add_argument("--episodes", type=int, help="how many; short for --set learning.episodes=N")
     parser.add_argument("--seed", type=int, help="of every random number; short for --set learning.seed=N")
     parser.add_argument(
@@ -44,7 +45,9 @@ def parse_arguments():
     parser.add_argument("--no-figures", dest="figures", action="store_false", help="draw none; plot does it later")
     parser.add_argument("--quiet", action="store_true", help="no progress")
     args = parser.parse_args()
-    if args.resume is not None and (args.config or args.robot or args.out or args.set or args.seed is not None):
+    if args.resume is not None and (
+        args.config or args.robot or args.packages or args.out or args.set or args.seed is not None
+    ):
         parser.error("--resume takes all from the run folder; only --episodes can be changed")
     return args
 
@@ -56,7 +59,8 @@ def new_folder(args):
     if args.episodes is not None:
         assignments.append(f"learning.episodes={args.episodes}")
     config = Path(args.config or paths.CONFIG / "default.ini")
-    folder = runfolder.create(args.out, config, args.robot or paths.CONFIG / "crawler.urdf", assignments)
+    robot = args.robot or paths.CONFIG / "crawler.urdf"
+    folder = runfolder.create(args.out, config, robot, assignments, packages=args.packages)
     begin_manifest(folder, config.stem)
     return folder
 

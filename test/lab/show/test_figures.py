@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from limphome_lab.show.figures import is_level
-from limphome_lab.show.figures.motion import convex_hull
+from limphome_lab.show.figures.outline import convex_hull
 from limphome_lab.show.figures.style import episode_frame, running
 
 

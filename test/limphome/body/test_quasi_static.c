@@ -27,9 +27,9 @@ typedef struct stance {
 static stance stand(const lh_robot *robot, float swing, float boom, float arm, lh_vec3 up) {
     const float angle[LH_MAX_ACTUATORS] = {NAN, NAN, swing, boom, arm}; /* crawlers are not read */
     stance s;
-    lh_rest_find(robot, angle, up, 0.03f, &s.rest);
+    lh_rest_find(robot, angle, up, &s.rest);
     lh_footing_find(robot, angle, &s.rest, up, travel, FRICTION, &s.footing);
-    lh_kinematics_posture(robot, lh_rest_upright(s.rest.normal), angle, 0.03f, &s.posture);
+    lh_kinematics_posture(robot, lh_rest_upright(s.rest.normal), angle, &s.posture);
     return s;
 }
 
@@ -164,7 +164,7 @@ START_TEST(joints_move_the_tip) {
         for (int32_t i = 0; i < 2; i++) {
             float angle[LH_MAX_ACTUATORS] = {0.0f, 0.0f, 1.3f, -0.5f, -0.9f};
             angle[joint] += i == 0 ? -0.01f : 0.01f;
-            lh_kinematics_posture(&robot, lh_rest_upright(s.rest.normal), angle, 0.03f, &posture[i]);
+            lh_kinematics_posture(&robot, lh_rest_upright(s.rest.normal), angle, &posture[i]);
         }
         const double x = (posture[1].supports[4].x - posture[0].supports[4].x) / 0.02 * 0.15;
         const double y = (posture[1].supports[4].y - posture[0].supports[4].y) / 0.02 * 0.15;

@@ -75,6 +75,32 @@ START_TEST(total_mass_must_have_a_finite_reciprocal) {
 }
 END_TEST
 
+START_TEST(scale_is_that_of_the_base) {
+    lh_robot robot = crawler_robot();
+    ck_assert_float_eq(lh_robot_scale(&robot), 1.0f); /* to the bit: the paper's robot is the measure */
+    for (float factor = 0.1f; factor < 11.0f; factor *= 10.0f) {
+        const lh_robot scaled = scaled_robot(&robot, factor);
+        expect_near(lh_robot_scale(&scaled), factor, 1e-6 * factor);
+    }
+    robot.supports[4].point.x = 99.0f; /* the arm's */
+    ck_assert_float_eq(lh_robot_scale(&robot), 1.0f);
+    robot.supports[1].point.x = -3.125f; /* longer than wide */
+    expect_near(lh_robot_scale(&robot), 5.0, 1e-6);
+}
+END_TEST
+
+START_TEST(scale_is_bounded) {
+    lh_robot robot = crawler_robot();
+    robot.supports[0].point.x = LH_LENGTH_LIMIT;
+    robot.supports[1].point.x = -LH_LENGTH_LIMIT;
+    ck_assert_float_eq(lh_robot_scale(&robot), LH_SCALE_MAX);
+    for (int32_t i = 0; i < robot.num_supports; i++) {
+        robot.supports[i].link = 5; /* none on the base */
+    }
+    ck_assert_float_eq(lh_robot_scale(&robot), LH_SCALE_MIN);
+}
+END_TEST
+
 Suite *suite(void) {
     Suite *s = suite_create("robot");
     TCase *t = tcase_create("rules");
@@ -82,6 +108,10 @@ Suite *suite(void) {
     tcase_add_test(t, one_link_is_enough);
     tcase_add_test(t, broken_rules_are_named);
     tcase_add_test(t, total_mass_must_have_a_finite_reciprocal);
+    suite_add_tcase(s, t);
+    t = tcase_create("scale");
+    tcase_add_test(t, scale_is_that_of_the_base);
+    tcase_add_test(t, scale_is_bounded);
     suite_add_tcase(s, t);
     return s;
 }

@@ -13,11 +13,10 @@ enum { RIGHT = 1, SWING, BOOM, ARM };
 static const lh_controlled crawler_and_boom = {.count = 2, .index = {RIGHT, BOOM}};
 
 /* Before any sweep. */
-static void init(const lh_controlled *controlled, float discount_rate, bool mechanics) {
+static void init_for(const lh_robot *robot, const lh_controlled *controlled, float discount_rate, bool mechanics) {
     const lh_task_config task_config = lh_task_config_default();
-    const lh_robot robot = crawler_robot();
     lh_task task;
-    ck_assert_int_eq(lh_task_init(&task, &task_config, &robot, controlled), LH_OK);
+    ck_assert_int_eq(lh_task_init(&task, &task_config, robot, controlled), LH_OK);
     lh_planner_config config = lh_planner_config_default();
     config.discount_rate = discount_rate;
     config.mechanics = mechanics;
@@ -25,6 +24,11 @@ static void init(const lh_controlled *controlled, float discount_rate, bool mech
     ck_assert_int_eq(lh_planner_init(&planner, &config, &task, 1), LH_OK);
     const lh_state state = crawler_state(0.0f, 0.0f, 0.0f);
     memcpy(planner.joint_angle, state.actuator_position, sizeof planner.joint_angle);
+}
+
+static void init(const lh_controlled *controlled, float discount_rate, bool mechanics) {
+    const lh_robot robot = crawler_robot();
+    init_for(&robot, controlled, discount_rate, mechanics);
 }
 
 static void init_usual(void) {
@@ -44,13 +48,18 @@ static double margin_at(const float *angle) {
     memcpy(joint_angle, planner.joint_angle, sizeof joint_angle);
     lh_planned_set_angles(&planner.planned, angle, joint_angle);
     lh_rest rest;
-    lh_rest_find(&planner.robot, joint_angle, planner.up, 0.03f, &rest);
+    lh_rest_find(&planner.robot, joint_angle, planner.up, &rest);
     return rest.margin;
+}
+
+/* S_safe is in proportion to the robot, 2 cm for that of the paper, which is 1.25 m wide. */
+static double safe_margin(void) {
+    return 0.02 * 2.0 * planner.robot.supports[0].point.y / 1.25;
 }
 
 static double cost_at(const float *angle) {
     const double margin = margin_at(angle);
-    return exp(-margin) + 3.0 * fmin(3.0, fmax(0.0, 1.0 - margin / 0.02));
+    return exp(-margin) + 3.0 * fmin(3.0, fmax(0.0, 1.0 - margin / safe_margin()));
 }
 
 /* Along the line and across the robot; the errors after it. */
@@ -76,16 +85,25 @@ END_TEST
 
 /* --- costs and expectations --- */
 
-START_TEST(nodes_cost_what_their_margin_says) {
-    init_usual();
+static void expect_costs_of_margins(void) {
     int32_t unsafe = 0;
     for (int32_t node = 0; node < planner.learned.values.num_nodes; node += 7) {
         float angle[LH_PLANNED_JOINTS];
         lh_posture_angles(&planner.learned.values, node, angle);
         expect_near(lh_posture_node_cost(&planner.learned.values, node), cost_at(angle), 0.6 / 1024);
-        unsafe += margin_at(angle) < 0.02;
+        unsafe += margin_at(angle) < safe_margin();
     }
     ck_assert_int_gt(unsafe, 0);
+}
+
+START_TEST(nodes_cost_what_their_margin_says) {
+    init_usual();
+    expect_costs_of_margins();
+    const lh_robot large = crawler_robot();
+    const lh_robot small = scaled_robot(&large, 0.1f);
+    const lh_controlled controlled = crawler_controlled();
+    init_for(&small, &controlled, 0.99f, true);
+    expect_costs_of_margins();
 }
 END_TEST
 

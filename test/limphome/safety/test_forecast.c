@@ -32,7 +32,7 @@ static lh_robot swinging(void) {
 
 static lh_forecast forecast(lh_quat attitude, float angle, float next) {
     const lh_robot robot = swinging();
-    return lh_forecast_margin(&robot, attitude, &angle, &next, 0.03f);
+    return lh_forecast_margin(&robot, attitude, &angle, &next);
 }
 
 /* Rise of a centre of mass 0.5 m high over an edge that lies `ahead` of it, on a slope that falls towards the edge. */

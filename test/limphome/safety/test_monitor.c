@@ -170,7 +170,7 @@ static float margin_after(const lh_state *state, int32_t action) {
         next[k] = state->actuator_position[k] + 0.5f * next[k];
     }
     lh_rest rest;
-    lh_rest_find(&task.robot, next, (lh_vec3){0.0f, 0.0f, 1.0f}, 0.03f, &rest);
+    lh_rest_find(&task.robot, next, (lh_vec3){0.0f, 0.0f, 1.0f}, &rest);
     return rest.margin;
 }
 

@@ -51,7 +51,6 @@ START_TEST(bad_fields_are_named) {
     } while (0)
     BAD(crawler_speed, 0.0f, LH_ERROR_SPEED);
     BAD(joint_speed, NAN, LH_ERROR_SPEED);
-    BAD(support_tolerance, 0.0f, LH_ERROR_LIMIT);
     BAD(reward.forward, -1.0f, LH_ERROR_REWARD);
     BAD(episode.reset_every, 0, LH_ERROR_EPISODE);
     BAD(path.kind, (lh_path_kind)7, LH_ERROR_PATH);

@@ -4,7 +4,7 @@ import numpy as np
 
 from limphome_lab.measure.instrument import CRAWLER, LEFT_LOCKED, Instrument
 from limphome_lab.measure.validation import statics
-from limphome_lab.measure.validation.cases import MU, SPEED
+from limphome_lab.measure.validation.cases.quantity import MU, SPEED
 
 TIME_STEPS = (0.02, 0.01, 0.005, 0.0025, 0.001)  # [s]
 ITERATIONS = (2, 5, 10, 20, 50, 200)

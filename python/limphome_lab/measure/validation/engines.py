@@ -5,7 +5,8 @@ from dataclasses import asdict, dataclass
 
 from limphome_lab.measure.instrument import CRAWLER, LEFT_LOCKED, RIGHT, SOUND, Instrument
 from limphome_lab.measure.validation import statics
-from limphome_lab.measure.validation.cases import MU, SPEED, lifted_footing, press_down
+from limphome_lab.measure.validation.cases.arm import lifted_footing, press_down
+from limphome_lab.measure.validation.cases.quantity import MU, SPEED
 from limphome_lab.measure.validation.mujoco_robot import DEFAULTS, ELLIPTIC, MujocoPlant
 
 

@@ -26,9 +26,6 @@ def _text(numbers):
 def model_xml(path, friction=0.7, time_step=1 / 240, options=ELLIPTIC, solref=(0.02, 1), heading=math.pi / 2):
     """MJCF of the robot in the file `path`; `solref` is the ground's time constant [s] and damping ratio."""
     machine = Machine(path)
-    root = xml.parse(path).getroot()
-    links = {link.get("name"): link for link in root.findall("link")}
-    limits = {joint.get("name"): joint.find("limit") for joint in root.findall("joint")}
     model = xml.Element("mujoco")
     xml.SubElement(
         model,
@@ -44,64 +41,53 @@ def model_xml(path, friction=0.7, time_step=1 / 240, options=ELLIPTIC, solref=(0
     xml.SubElement(model, "compiler", angle="radian", inertiafromgeom="false")
     world = xml.SubElement(model, "worldbody")
     xml.SubElement(world, "geom", name="ground", type="plane", size="0 0 1", contype="2", conaffinity="1")
-    bodies = {
-        machine.robot.base: xml.SubElement(
-            world, "body", name=machine.robot.base, quat=_text([math.cos(heading / 2), 0, 0, math.sin(heading / 2)])
-        )
-    }
-    base = bodies[machine.robot.base]
-    xml.SubElement(base, "freejoint")
-    _add_inertial(base, links[machine.robot.base])
     actuators = xml.SubElement(model, "actuator")
-    for joint in machine.robot.joints:
-        rotation = np.zeros(4)
-        mujoco.mju_mat2Quat(rotation, joint.origin[:3, :3].ravel())
-        body = xml.SubElement(
-            bodies[joint.parent], "body", name=joint.child, pos=_text(joint.origin[:3, 3]), quat=_text(rotation)
+    elements = []
+    for index, body in enumerate(machine.robot.bodies):
+        parent = world if index == 0 else elements[body["parent"]]
+        element = xml.SubElement(
+            parent, "body", name=body["name"], pos=_text(body["position"]), quat=_text(body["rotation"])
         )
-        bodies[joint.child] = body
-        if joint.name in machine.robot.arm:
-            limit = limits[joint.name]
-            xml.SubElement(
-                body,
-                "joint",
-                name=joint.name,
-                axis=_text(joint.axis),
-                limited="true",
-                range=f"{limit.get('lower')} {limit.get('upper')}",
-            )
-            force = float(limit.get("effort"))
-            xml.SubElement(
-                actuators,
-                "intvelocity",
-                name=joint.name,
-                joint=joint.name,
-                kp=str(ARM_STIFFNESS),
-                kv=str(ARM_DAMPING),
-                actrange=f"{limit.get('lower')} {limit.get('upper')}",
-                forcerange=f"{-force} {force}",
-            )
-        _add_inertial(body, links[joint.child])
+        elements.append(element)
+        if index > len(machine.crawlers):
+            _add_joint(element, actuators, body, machine.robot.told["actuators"][index - 1])
+        _add_inertial(element, body)
+    base = elements[0]
+    base.set("quat", _text([math.cos(heading / 2), 0, 0, math.sin(heading / 2)]))
+    xml.SubElement(base, "freejoint")
     for name, crawler in zip(machine.robot.crawlers, machine.crawlers, strict=True):
         half = [crawler.length / 2 - crawler.radius, crawler.width / 2, crawler.radius]
         xml.SubElement(
             base, "geom", name=name, type="box", pos=_text(crawler.centre), size=_text(half), surfacevel="1 0 0 0 0 0"
         )  # all 0 would switch it off for good
-    link, centre, radius = machine.tip
-    xml.SubElement(bodies[link], "geom", name="tip", type="sphere", pos=_text(centre), size=repr(radius))
+    body, centre, radius = machine.tip
+    xml.SubElement(elements[body], "geom", name="tip", type="sphere", pos=_text(centre), size=repr(radius))
     return xml.tostring(model, encoding="unicode")
 
 
-def _add_inertial(body, link):
-    inertial = link.find("inertial")
-    origin = inertial.find("origin")
-    moments = inertial.find("inertia")
+def _add_joint(element, actuators, body, actuator):
+    name, force, limits = actuator["name"], actuator["effort"], _text([actuator["lower"], actuator["upper"]])
+    xml.SubElement(element, "joint", name=name, axis=_text(body["axis"]), limited="true", range=limits)
     xml.SubElement(
-        body,
+        actuators,
+        "intvelocity",
+        name=name,
+        joint=name,
+        kp=str(ARM_STIFFNESS),
+        kv=str(ARM_DAMPING),
+        actrange=limits,
+        forcerange=f"{-force} {force}",
+    )
+
+
+def _add_inertial(element, body):
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = body["inertia"]
+    xml.SubElement(
+        element,
         "inertial",
-        pos="0 0 0" if origin is None else origin.get("xyz"),
-        mass=inertial.find("mass").get("value"),
-        diaginertia=_text([float(moments.get(name)) for name in ("ixx", "iyy", "izz")]),
+        pos=_text(body["centre"]),
+        mass=repr(body["mass"]),
+        fullinertia=_text([xx, yy, zz, xy, xz, yz]),
     )
 
 
@@ -110,6 +96,7 @@ class MujocoPlant:
 
     def __init__(self, path, **options):
         self.machine = Machine(path)
+        self.base = self.machine.robot.bodies[0]["name"]
         self.model = mujoco.MjModel.from_xml_string(model_xml(path, **options))
         self.data = mujoco.MjData(self.model)
         self.data.qpos[7:] = self.machine.arm_home  # after the base's position and orientation
@@ -126,12 +113,12 @@ class MujocoPlant:
 
     @property
     def heading(self):
-        axes = self.data.body(self.machine.robot.base).xmat.reshape(3, 3)
+        axes = self.data.body(self.base).xmat.reshape(3, 3)
         return math.atan2(axes[1, 0], axes[0, 0])
 
     @property
     def position(self):
-        return self.data.body(self.machine.robot.base).xpos.copy()
+        return self.data.body(self.base).xpos.copy()
 
     def mean_drive_torque(self, crawler, seconds):
         """What the friction on a belt asks of its sprocket, mean over time as contacts may chatter [N m]."""

@@ -28,7 +28,7 @@ def _urdf(path, wheels):
     for link in links.values():
         for element in link.findall("visual") + link.findall("collision"):
             link.remove(element)
-    base = machine.robot.base
+    base = machine.robot.bodies[0]["name"]
     for side, crawler in zip(("left", "right"), machine.crawlers, strict=True):
         flat = crawler.length - 2 * crawler.radius
         if not wheels:
@@ -46,8 +46,8 @@ def _urdf(path, wheels):
             xml.SubElement(joint, "child", link=name)
             xml.SubElement(joint, "origin", xyz=" ".join(map(str, crawler.centre + [x, 0, 0])))
             xml.SubElement(joint, "axis", xyz="0 1 0")
-    link, centre, radius = machine.tip
-    _collision(links[link], centre, "sphere", radius=radius)
+    body, centre, radius = machine.tip
+    _collision(links[machine.robot.bodies[body]["name"]], centre, "sphere", radius=radius)
     root.remove(root.find("limphome"))
     return xml.tostring(root, encoding="unicode")
 

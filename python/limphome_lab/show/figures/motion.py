@@ -7,21 +7,17 @@ lies elsewhere under each part of the robot.
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.patches import Polygon
 
-from limphome_lab.show.figures import style
-from limphome_lab.urdf import Robot
+from limphome_lab.robot import read
+from limphome_lab.show.figures import outline, style
+from limphome_lab.show.figures.outline import FORWARD, LEFT, UP
 
 SNAPSHOTS = 5
-FORWARD, LEFT, UP = 0, 1, 2  # columns of points here
-COLOURS = {"base": "#6b7784", "upper_body": "#b9c4cf"}
-CRAWLER = "#3d454d"
-ARM = style.ORANGE
 
 
-def draw(urdf, episode, states, level=True):
+def draw(file, episode, states, level=True):
     """`level`: whether the ground is."""
-    robot = Robot(urdf)
+    robot = read(file)
     chosen = [states[i] for i in np.unique(np.linspace(0, len(states) - 1, SNAPSHOTS).round().astype(int))]
     poses = [_parts(robot, episode, state) for state in chosen]
     points = np.vstack([part.points for parts in poses for part, _ in parts])
@@ -44,10 +40,10 @@ def draw(urdf, episode, states, level=True):
     from_left = _failed_side(poses[0]) >= 0
     begin = episode.utime * 1e-6 - episode.duration
     for (side, above), state, parts in zip(axes.T, chosen, poses, strict=True):
-        _view(side, parts, across=UP, nearness=lambda points: points[:, LEFT] if from_left else -points[:, LEFT])
-        _view(above, parts, across=LEFT, nearness=lambda points: points[:, UP])
+        outline.view(side, parts, across=UP, nearness=lambda points: points[:, LEFT] if from_left else -points[:, LEFT])
+        outline.view(above, parts, across=LEFT, nearness=lambda points: points[:, UP])
         if level:
-            _ground(side)
+            outline.ground(side)
         _goal_line(side, above, episode)
         side.set_title(f"{state.utime * 1e-6 - begin:.1f} s")
         side.set(xlim=(low[FORWARD], high[FORWARD]), ylim=(low[UP], high[UP]))
@@ -57,55 +53,26 @@ def draw(urdf, episode, states, level=True):
         axes[1, 0].invert_yaxis()
     axes[0, 0].set_ylabel(f"from the {'left' if from_left else 'right'}:\nup [m]")
     axes[1, 0].set_ylabel("from above:\nleft [m]")
-    _legend(figure, [colour for _, colour in poses[-1]])
+    _legend(figure, [shade for _, shade in poses[-1]])
     uneven = "" if level else "; the ground, which is not level, is not drawn"
     figure.suptitle(f"Motion of the robot in episode {episode.episode}{uneven}")
     return figure
 
 
 def _parts(robot, episode, state):
-    """[(part with its corners in the episode's frame, colour)]"""
+    """[(part with its corners in the episode's frame, its colour)]"""
     failed = {name for name, health in zip(robot.actuators, state.actuator_health, strict=False) if health != 0}
     parts = []
     for part in robot.posed(state.position, state.orientation, state.actuator_position):
         seen = style.episode_frame(part.points, episode.start, episode.line_heading)
         part.points = np.column_stack([seen[:, 1], -seen[:, 0], seen[:, 2]])
-        parts.append((part, _colour(robot, part.name, failed)))
+        parts.append((part, outline.colour(robot, part, failed)))
     return parts
 
 
 def _failed_side(parts):
     """How far to the left the failed crawler lies [m]; 0 where none has failed."""
-    return next((part.points[:, LEFT].mean() for part, colour in parts if colour == style.RED), 0.0)
-
-
-def _colour(robot, name, failed):
-    if name in failed:
-        return style.RED
-    if name in robot.crawlers:
-        return CRAWLER
-    return COLOURS.get(name, ARM)
-
-
-def _view(axes, parts, across, nearness):
-    """Outlines of all parts, those nearest to the eye last."""
-    axes.set_aspect("equal")
-    for part, colour in sorted(parts, key=lambda each: nearness(each[0].points).mean()):
-        axes.add_patch(
-            Polygon(
-                convex_hull(part.points[:, [FORWARD, across]]),
-                closed=True,
-                facecolor=colour,
-                edgecolor="white",
-                linewidth=0.8,
-                zorder=3,
-            )
-        )
-
-
-def _ground(side):
-    side.axhspan(-10, 0, color="#d9cfc1", zorder=1)
-    side.axhline(0, color="#8a7a64", linewidth=1.2, zorder=2)
+    return next((part.points[:, LEFT].mean() for part, shade in parts if shade == style.RED and part.body == 0), 0.0)
 
 
 def _goal_line(side, above, episode):
@@ -113,35 +80,7 @@ def _goal_line(side, above, episode):
         axes.axvline(episode.goal_distance, color=style.GREEN, linestyle="--", linewidth=1.4, zorder=2)
 
 
-def _legend(figure, colours):
-    labels = {
-        style.RED: "failed crawler",
-        CRAWLER: "crawler",
-        COLOURS["base"]: "chassis",
-        COLOURS["upper_body"]: "upper body",
-        ARM: "boom and arm",
-    }
-    handles = [
-        Polygon([(0, 0)], facecolor=colour, label=label) for colour, label in labels.items() if colour in colours
-    ]
+def _legend(figure, shades):
+    handles = outline.handles(shades)
     handles.append(plt.Line2D([], [], color=style.GREEN, linestyle="--", label="goal line"))
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
-
-
-def convex_hull(points):
-    """Corners of the convex hull of [n x 2] points, counter-clockwise (Andrew's monotone chain)."""
-    points = sorted(map(tuple, points))
-
-    def chain(ordered):
-        hull = []
-        for point in ordered:
-            while len(hull) > 1 and _cross(hull[-2], hull[-1], point) <= 0:
-                hull.pop()
-            hull.append(point)
-        return hull[:-1]
-
-    return np.array(chain(points) + chain(reversed(points)))
-
-
-def _cross(a, b, c):
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])

@@ -6,23 +6,26 @@ import numpy as np
 import pytest
 
 from limphome_lab import paths
-from limphome_lab.urdf import Robot, rotation_about, rotation_of
+from limphome_lab.ending import InputError
+from limphome_lab.robot import apply, read, rotation_about, rotation_of
 
 UPRIGHT = [1, 0, 0, 0]
 
 
 @pytest.fixture(scope="module")
 def robot():
-    return Robot(paths.CONFIG / "crawler.urdf")
+    return read(paths.CONFIG / "crawler.urdf")
 
 
 def tip(robot, position, orientation, swing, boom, arm):
-    angles = dict(zip(robot.actuators, [0, 0, swing, boom, arm], strict=True))
-    return (robot.link_frames(position, orientation, angles)["arm"] @ [0.8, 0, 0, 1])[:3]
+    (ball,) = robot.tips
+    return apply(robot.frames([0, 0, swing, boom, arm], position, orientation)[ball["body"]], ball["point"])
 
 
 def test_actuators_are_crawlers_then_arm(robot):
     assert robot.actuators == ["left_crawler", "right_crawler", "swing", "boom", "arm"]
+    assert robot.crawlers + robot.arm == robot.actuators
+    assert robot.home == pytest.approx([0, 0, 0, 0.6, -1.5])
 
 
 @pytest.mark.parametrize("swing, boom, arm", [(0, 0, 0), (0, 0.6, -1.5), (1.2, -0.3, -2.0), (-2.6, 1.2, -2.4)])
@@ -52,6 +55,24 @@ def test_crawlers_stand_on_the_ground_and_fill_the_size_of_the_robot(robot):
     assert np.ptp(both, axis=0) == pytest.approx([1.6, 1.25, 0.36])
     assert both[:, 2].min() == pytest.approx(0, abs=1e-9)
     assert parts["upper_body"][:, 2].max() == pytest.approx(1.36)  # height of the robot without the arm
+
+
+def test_every_kind_of_shape_has_its_size(tmp_path):
+    text = (paths.CONFIG / "crawler.urdf").read_text()
+    cylinder = '<collision><origin xyz="0 0 2"/><geometry><cylinder radius="0.1" length="0.6"/></geometry></collision>'
+    ball = '<collision><origin xyz="0 0 3"/><geometry><sphere radius="0.2"/></geometry></collision>'
+    file = tmp_path / "shapes.urdf"
+    file.write_text(text.replace('<link name="upper_body">', f'<link name="upper_body">{cylinder}{ball}'))
+    sizes = [np.ptp(part.points, axis=0) for part in read(file).parts if part.name == "upper_body"]
+    for expected in ([0.2, 0.2, 0.6], [0.4, 0.4, 0.4], [1.0, 0.8, 0.86]):
+        assert any(size == pytest.approx(expected, abs=1e-9) for size in sizes), (expected, sizes)
+
+
+def test_a_file_that_is_refused_ends_with_its_reasons(tmp_path):
+    file = tmp_path / "none.urdf"
+    file.write_text('<robot name="none"><link name="base"/></robot>')
+    with pytest.raises(InputError, match=r"none\.urdf"):
+        read(file)
 
 
 @pytest.mark.parametrize("axis", np.eye(3))
