@@ -35,7 +35,8 @@ static inline lh_frame lh_frame_of_child(const lh_frame *parent, const lh_link *
 /* The frames of all links, frames[robot->num_links], with the body's origin and `attitude`. */
 static inline void lh_frames_of_links(const lh_robot *robot, lh_quat attitude, const float *joint_angle,
                                       lh_frame *frames) {
-    frames[0] = (lh_frame){.rotation = attitude};
+    const lh_frame base = {{0.0f, 0.0f, 0.0f}, attitude};
+    frames[0] = base;
     for (int32_t i = 1; i < robot->num_links; i++) {
         const lh_link *link = &robot->links[i];
         frames[i] = lh_frame_of_child(&frames[link->parent], link, joint_angle);
