@@ -27,7 +27,7 @@ static void to_doubles(lh_vec3 v, double out[3]) {
 /* Posture of the arm with the body upright. */
 static lh_posture upright(const lh_robot *robot, const float *angle) {
     lh_posture posture;
-    lh_kinematics_posture(robot, (lh_quat){1.0f, 0.0f, 0.0f, 0.0f}, angle, LH_SUPPORT_TOLERANCE_MIN, &posture);
+    lh_kinematics_posture(robot, (lh_quat){1.0f, 0.0f, 0.0f, 0.0f}, angle, &posture);
     return posture;
 }
 
@@ -61,7 +61,7 @@ static facts_posture stand(const lh_robot *robot, int num_tips, const float *ang
     const lh_posture posture = upright(robot, angle);
     if (arm_is_down(robot, &posture)) {
         lh_rest rest;
-        lh_rest_find(robot, angle, level, lh_task_config_default().support_tolerance, &rest);
+        lh_rest_find(robot, angle, level, &rest);
         facts.rests = rest.num_carrying > 0;
         facts.braced = rest.braced;
         facts.margin = (double)rest.margin;

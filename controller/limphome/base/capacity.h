@@ -12,7 +12,7 @@
  *     lh_planner         lh_planner_learned + (52 + K) B + 8 A P + 24 A + 64 L + 36 P + 8 W + 8 K + 736
  *     lh_learner         the larger of lh_q_learning and lh_planner, + 12
  *     lh_task            20 A + 64 L + 20 P + 8 W + 192
- *     lh_monitor         14 A + 4 L + 48 H + 236
+ *     lh_monitor         14 A + 4 L + 48 H + 228
  *     lh_controller      lh_learner + lh_task + lh_monitor
  *
  * and on the stack, where lh_controller_step takes the most, about 1750 + 70 P.
