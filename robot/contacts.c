@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "robot_overlap.h"
+
 static bool is_sprocket(int body) {
     return body > 0 && body <= ROBOT_CRAWLERS;
 }
@@ -45,5 +47,51 @@ void contacts_find(struct reading *r, const struct elements *e, robot_descriptio
     }
     for (const struct xml_element *at = xml_child(e->extension, "no_contact"); at != NULL; at = xml_again(at)) {
         read_exception(r, e, at, robot);
+    }
+}
+
+/* The link of shape `index` as robot_overlap.h counts, NULL for a belt. */
+static const struct file_link *link_of(const struct elements *e, const robot_description *robot, int index) {
+    const int link = index < robot->num_shapes ? find_link(e, robot->shapes[index].name) : -1;
+    return link < 0 ? NULL : &e->links[link];
+}
+
+static int body_of(const robot_description *robot, int index) {
+    return index < robot->num_shapes ? robot->shapes[index].body : 0;
+}
+
+static const char *name_of(const robot_description *robot, int index) {
+    static const char *const belts[ROBOT_CRAWLERS] = {"the left belt", "the right belt"};
+    return index < robot->num_shapes ? robot->shapes[index].name : belts[index - robot->num_shapes];
+}
+
+/* Whether the shapes of a link are taken from meshes. */
+static bool is_approximated(const struct file_link *link) {
+    for (int i = 0; link != NULL && i < link->num_shapes; i++) {
+        const struct xml_element *geometry = xml_child(link->shapes[i].at, "geometry");
+        if (geometry != NULL && xml_child(geometry, "mesh") != NULL) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void contacts_check(struct reading *r, const struct elements *e, robot_description *robot) {
+    robot_overlap overlap;
+    while (robot_overlaps_at_home(robot, &overlap, 1) > 0) {
+        const char *first = name_of(robot, overlap.shape), *second = name_of(robot, overlap.other);
+        const int a = body_of(robot, overlap.shape), b = body_of(robot, overlap.other);
+        if (is_approximated(link_of(e, robot, overlap.shape)) || is_approximated(link_of(e, robot, overlap.other))) {
+            remark(r, e->extension, NULL,
+                   "%.60s and %.60s reach %.3g m into each other in the initial pose, with shapes taken from meshes: "
+                   "their bodies are taken never to touch",
+                   first, second, overlap.depth);
+        } else {
+            fault(r, e->extension, NULL,
+                  "%.60s and %.60s reach %.3g m into each other in the initial pose; must not, or be excepted by "
+                  "<no_contact link1=\"%.60s\" link2=\"%.60s\"/>",
+                  first, second, overlap.depth, robot->bodies[a].name, robot->bodies[b].name);
+        }
+        robot->may_meet[a][b] = robot->may_meet[b][a] = false;
     }
 }

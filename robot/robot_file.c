@@ -48,6 +48,7 @@ static void build(struct reading *r, struct elements *e, robot_description *robo
     parts_supports(r, e, robot);
     touch_find(r, e, order, robot);
     contacts_find(r, e, robot);
+    contacts_check(r, e, robot);
 }
 
 bool robot_file_read(const char *path, const char *packages, robot_description *robot, robot_report *report) {

@@ -5,7 +5,7 @@
 //   command RATE...    belt speeds [m/s], then joint rates [rad/s]; those left out are 0
 //   advance SECONDS
 //   sense              readings, {"utime": ...}
-//   truth              {"centre_of_mass": ...}
+//   truth              {"centre_of_mass": ...}; contacts as in ground_truth_t, "with" -2: the ground
 //   gravity X Y Z      what only a world has: from now on [m/s^2]; one that is not vertical stands for a slope
 //   lift HEIGHT        puts the robot that much higher [m]
 //   measure            {"time": since the reset [s], "cpu_s": processor time of all commands and advances so far [s],
@@ -163,7 +163,8 @@ void Instrument::truth() const {
     print("velocity", truth.velocity, 3);
     std::printf(", \"contacts\": [");
     for (int i = 0; i < truth.num_contacts; i++) {
-        std::printf("%s{\"part\": %d, ", i == 0 ? "" : ", ", truth.contact_part[i]);
+        std::printf("%s{\"part\": %d, \"with\": %d, ", i == 0 ? "" : ", ", truth.contact_part[i],
+                    truth.contact_with[i]);
         print("point", truth.contact_point[i], 3);
         std::printf(", ");
         print("force", truth.contact_force[i], 3);

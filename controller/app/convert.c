@@ -94,6 +94,7 @@ static lh_monitor_config convert_monitor(const settings *s) {
     config.joint.acceleration = (float)s->safety.joint_acceleration;
     config.stop_clearance = (float)s->safety.stop_clearance_rad;
     config.margin_floor = (float)s->safety.margin_floor_m;
+    config.collision_clearance = (float)s->safety.collision_clearance_m;
     config.tilt = (float)s->safety.tilt_rad;
     return config;
 }
@@ -158,6 +159,7 @@ SAME_HAZARD(ACCELERATION);
 SAME_HAZARD(STOP);
 SAME_HAZARD(FAILED);
 SAME_HAZARD(STUCK);
+SAME_HAZARD(COLLISION);
 
 /* So that a new one is told here and in convert_episode. */
 _Static_assert(sizeof(lh_reward) == 4 * sizeof(float), "decision_t and episode_t tell four terms of the reward");

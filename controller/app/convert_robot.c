@@ -1,6 +1,9 @@
 #include "convert_robot.h"
 
+#include <math.h>
 #include <string.h>
+
+#include "robot_solid.h"
 
 static lh_vec3 vec3(const double v[3]) {
     return (lh_vec3){(float)v[0], (float)v[1], (float)v[2]};
@@ -61,4 +64,63 @@ bool convert_robot(const robot_description *from, lh_robot *robot, char error[ER
     }
     *robot = converted;
     return true;
+}
+
+/* Of the rotation from the frame to the axes, which is less than half a turn. */
+static lh_quat quat_of_axes(const double axes[3][3]) {
+    const double w = 0.5 * sqrt(1 + axes[0][0] + axes[1][1] + axes[2][2]);
+    return (lh_quat){(float)w, (float)((axes[1][2] - axes[2][1]) / (4 * w)),
+                     (float)((axes[2][0] - axes[0][2]) / (4 * w)), (float)((axes[0][1] - axes[1][0]) / (4 * w))};
+}
+
+static lh_shape convert_belt(const robot_crawler *crawler) {
+    const robot_solid solid = robot_solid_of_belt(crawler);
+    return (lh_shape){.centre = vec3(solid.centre),
+                      .rotation = quat_of_axes(solid.axes),
+                      .half = vec3(solid.half),
+                      .radius = (float)solid.radius,
+                      .disc = solid.disc};
+}
+
+static lh_shape convert_shape(const robot_shape *shape) {
+    const robot_solid solid = robot_solid_of_shape(shape);
+    const double *q = shape->pose.rotation;
+    return (lh_shape){.centre = vec3(solid.centre),
+                      .rotation = {(float)q[0], (float)q[1], (float)q[2], (float)q[3]},
+                      .half = vec3(solid.half),
+                      .radius = (float)solid.radius,
+                      .link = (int16_t)shape->body,
+                      .disc = solid.disc};
+}
+
+/* False if there is no room for it. */
+static bool add_shape(lh_shapes *shapes, lh_shape shape) {
+    if (shapes->count == LH_MAX_SHAPES) {
+        return false;
+    }
+    shapes->shape[shapes->count++] = shape;
+    return true;
+}
+
+int convert_shapes(const robot_description *from, lh_shapes *shapes) {
+    memset(shapes, 0, sizeof *shapes);
+    for (int a = 0; a < from->num_bodies; a++) {
+        for (int b = 0; b < from->num_bodies; b++) {
+            shapes->may_meet[a] |= from->may_meet[a][b] ? (uint32_t)1 << b : 0;
+        }
+    }
+    int left_out = 0;
+    for (int i = 0; i < ROBOT_CRAWLERS && shapes->may_meet[0] != 0; i++) {
+        left_out += !add_shape(shapes, convert_belt(&from->crawlers[i]));
+    }
+    for (int pass = 0; pass < 2; pass++) {
+        for (int i = 0; i < from->num_shapes; i++) {
+            const robot_shape *shape = &from->shapes[i];
+            const bool is_due = (shape->body == 0) == (pass == 1);
+            if (is_due && shapes->may_meet[shape->body] != 0) {
+                left_out += !add_shape(shapes, convert_shape(shape));
+            }
+        }
+    }
+    return left_out;
 }

@@ -39,6 +39,11 @@ static bool read_inputs(run *r, const command_line *line, const robot_descriptio
         return false;
     }
     r->config = convert_config(&r->settings);
+    const int left_out = convert_shapes(robot, &r->shapes);
+    if (left_out > 0) {
+        fprintf(stderr, "robot %s: the monitor knows no collision of %d shapes, for which it has no room\n",
+                robot->name, left_out);
+    }
     const lh_error bad = lh_config_validate(&r->config);
     if (bad != LH_OK) {
         return fail_with(r->error, "settings: %s", lh_error_text(bad));
@@ -100,6 +105,9 @@ static bool begin_learner(run *r, const limphome_robot_state_t *state) {
     r->config.learner.learn = !r->evaluating;
     r->config.learner.greedy = r->evaluating && r->settings.evaluation.selection == SETTINGS_GREEDY;
     lh_error error = lh_controller_init(&r->controller, &r->config, &r->robot, &controlled);
+    if (error == LH_OK) {
+        error = lh_controller_keep_apart(&r->controller, &r->shapes);
+    }
     if (error == LH_OK && state->num_actuators != r->robot.num_actuators) {
         error = LH_ERROR_STATE;
     }

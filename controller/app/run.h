@@ -20,6 +20,7 @@ typedef struct run {
     settings settings;
     lh_robot robot;
     lh_config config;
+    lh_shapes shapes;
     int64_t hash; /* of settings and robot: what a resumed run must share */
     run_folder folder;
     plant_link link;

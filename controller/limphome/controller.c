@@ -36,6 +36,14 @@ lh_error lh_controller_init(lh_controller *controller, const lh_config *config, 
     return error;
 }
 
+lh_error lh_controller_keep_apart(lh_controller *controller, const lh_shapes *shapes) {
+    lh_error error = lh_shapes_validate(shapes, &controller->task.robot);
+    if (error == LH_OK) {
+        controller->monitor.shapes = *shapes;
+    }
+    return error;
+}
+
 lh_error lh_controller_restore(lh_controller *controller, const lh_learned *learned, int32_t episode) {
     if (episode < 1 || episode > LH_LAST_EPISODE) {
         return LH_ERROR_EPISODE;

@@ -9,7 +9,7 @@
  *         drive the actuators with decision.velocity for one decision period;
  *     }
  *
- * The caller owns the struct; there is no other state. About 44 KiB with the default capacities. */
+ * The caller owns the struct; there is no other state. About 64 KiB with the default capacities. */
 #ifndef LIMPHOME_CONTROLLER_H
 #define LIMPHOME_CONTROLLER_H
 
@@ -53,6 +53,10 @@ lh_error lh_config_validate(const lh_config *config);
  * On an error nothing is changed. */
 lh_error lh_controller_init(lh_controller *controller, const lh_config *config, const lh_robot *robot,
                             const lh_controlled *controlled);
+
+/* Parts of the robot that the monitor keeps apart, where it is on: none before this call. LH_OK, or LH_ERROR_ROBOT, and
+ * nothing is changed. */
+lh_error lh_controller_keep_apart(lh_controller *controller, const lh_shapes *shapes);
 
 /* Goes on from what was learned before (lh_learner_save), and begins with episode `episode` (1 to LH_LAST_EPISODE) at
  * the next state. Saved where a reset was asked for, it goes on bit by bit as if unbroken. On an error nothing is

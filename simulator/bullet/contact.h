@@ -1,4 +1,4 @@
-// Contacts of the robot with the ground, as the solver sees them.
+// Contacts of the robot with the ground and of its bodies with each other, as the solver sees them.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,12 +12,14 @@ namespace limphome {
 
 struct Contact {
     int shape;                // index into Robot::shapes()
+    int other;                // as in Touch
     Eigen::Vector3d point;    // [m]
-    Eigen::Matrix3d frame;    // columns: normal from the ground into the robot, two tangents
+    Eigen::Matrix3d frame;    // columns: normal from the other into the shape, two tangents
     double depth;             // of penetration; below 0: gap [m]
     double friction;          // Coulomb coefficient
-    Eigen::Vector3d impulse;  // of the ground on the robot along the columns of frame [N s]
-    // Velocity of the robot's surface against the ground, along the columns of frame, per unit of each velocity.
+    double firmness;          // how much stiffer than the ground it is
+    Eigen::Vector3d impulse;  // of the other on the shape along the columns of frame [N s]
+    // Velocity of the shape's surface against the other's, along the columns of frame, per unit of each velocity.
     Eigen::Matrix<double, max_dofs, 3> jacobian;
 };
 
@@ -28,7 +30,7 @@ struct GroundStiffness {
     double damping;    // [N s/m]
 };
 
-// Fills `contacts`, one per touch in their order. Impulses start from those of the same shape in `previous`.
+// Fills `contacts`, one per touch in their order. Impulses start from those of the same shapes in `previous`.
 void make_contacts(const Robot &robot, const Ground &ground, const std::vector<Touch> &touches,
                    const std::vector<Contact> &previous, std::vector<Contact> &contacts);
 

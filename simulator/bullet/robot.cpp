@@ -59,14 +59,19 @@ std::vector<Ball> balls_of(const Body &body) {
 
 }  // namespace
 
-Robot::Robot(const RobotModel &model, double friction_crawler, double friction_arm)
+Robot::Robot(const RobotModel &model, const Frictions &frictions)
     : model_(model),
       principal_(principal_frames(model)),
       multibody_(static_cast<int>(model.actuators.size()), model.bodies[0].mass,
                  principal_inertia(model.bodies[0], principal_[0]), false, false) {
     build_links();
+    add_crawlers(frictions.crawler);
     for (int body = 0; body < static_cast<int>(model_.bodies.size()); body++) {
-        add_collider(body, friction_crawler, friction_arm);
+        add_balls(body, frictions.arm);
+    }
+    for (const Solid &solid : model_.solids) {
+        const bool on_crawler = solid.crawler >= 0;
+        shapes_.push_back({on_crawler ? solid.crawler : solid.body - 1, on_crawler, frictions.body});
     }
 }
 
@@ -116,36 +121,50 @@ void Robot::add_crawler_edges(btCompoundShape &compound, int crawler, double fri
     }
 }
 
-void Robot::add_collider(int body, double friction_crawler, double friction_arm) {
+btMultiBodyLinkCollider &Robot::add_collider(int body, std::unique_ptr<btCompoundShape> compound, int first_shape) {
+    auto collider = std::make_unique<btMultiBodyLinkCollider>(&multibody_, body - 1);
+    collider->setCollisionShape(compound.get());
+    collider->setUserIndex(first_shape);
+    geometry_.push_back(std::move(compound));
+    colliders_.push_back(std::move(collider));
+    return *colliders_.back();
+}
+
+void Robot::add_crawlers(double friction) {
+    auto compound = std::make_unique<btCompoundShape>();
+    for (int crawler = 0; crawler < num_crawlers; crawler++) {
+        add_crawler_edges(*compound, crawler, friction);
+    }
+    multibody_.setBaseCollider(&add_collider(0, std::move(compound), 0));
+}
+
+void Robot::add_balls(int body, double friction) {
     const auto index = static_cast<std::size_t>(body);
     auto compound = std::make_unique<btCompoundShape>();
     const int first_shape = static_cast<int>(shapes_.size());
-    if (body == 0) {
-        for (int crawler = 0; crawler < num_crawlers; crawler++) {
-            add_crawler_edges(*compound, crawler, friction_crawler);
-        }
-    }
     for (const Ball &ball : balls_of(model_.bodies[index])) {
         auto sphere = std::make_unique<btSphereShape>(ball.radius);
         const Eigen::Isometry3d pose(Eigen::Translation3d(ball.centre));
         compound->addChildShape(to_bullet(principal_[index].inverse() * pose), sphere.get());
         geometry_.push_back(std::move(sphere));
         balls_.push_back({principal_[index].inverse() * ball.centre, ball.radius});
-        shapes_.push_back({body - 1, false, friction_arm});
+        shapes_.push_back({body - 1, false, friction});
     }
     if (compound->getNumChildShapes() == 0) {
         return;
     }
-    auto collider = std::make_unique<btMultiBodyLinkCollider>(&multibody_, body - 1);
-    collider->setCollisionShape(compound.get());
-    collider->setUserIndex(first_shape);
+    btMultiBodyLinkCollider &collider = add_collider(body, std::move(compound), first_shape);
     if (body == 0) {
-        multibody_.setBaseCollider(collider.get());
+        hull_ = &collider;
     } else {
-        multibody_.getLink(body - 1).m_collider = collider.get();
+        multibody_.getLink(body - 1).m_collider = &collider;
     }
-    geometry_.push_back(std::move(compound));
-    colliders_.push_back(std::move(collider));
+}
+
+void Robot::place_hull() {
+    if (hull_ != nullptr) {
+        hull_->setWorldTransform(multibody_.getBaseCollider()->getWorldTransform());
+    }
 }
 
 Ball Robot::ball(int shape) const {
@@ -162,10 +181,11 @@ void Robot::scale_friction(int crawler, double share) {
     }
 }
 
-Eigen::Isometry3d Robot::pose() const {
-    const btTransform base = multibody_.getBaseWorldTransform();
-    const Eigen::Isometry3d frame = Eigen::Translation3d(to_eigen(base.getOrigin())) * to_eigen(base.getRotation());
-    return frame * principal_[0].inverse();
+Eigen::Isometry3d Robot::body_frame(int body) const {
+    const btTransform link =
+        body == 0 ? multibody_.getBaseWorldTransform() : multibody_.getLink(body - 1).m_cachedWorldTransform;
+    const Eigen::Isometry3d frame = Eigen::Translation3d(to_eigen(link.getOrigin())) * to_eigen(link.getRotation());
+    return frame * principal_[static_cast<std::size_t>(body)].inverse();
 }
 
 void Robot::set_pose(const Eigen::Isometry3d &pose) {
@@ -176,6 +196,7 @@ void Robot::set_pose(const Eigen::Isometry3d &pose) {
 void Robot::update_frames() {
     multibody_.forwardKinematics(scratch_rotations_, scratch_origins_);
     multibody_.updateCollisionObjectWorldTransforms(scratch_rotations_, scratch_origins_);
+    place_hull();
 }
 
 // Link frames of Bullet lie at the centres of mass.

@@ -1,4 +1,4 @@
-// The robot in Bullet: one multibody, and the shapes with which it can touch the ground.
+// The robot in Bullet: one multibody, and the shapes with which it can touch the ground and itself.
 #pragma once
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
@@ -19,11 +19,11 @@ struct Ball {
     double radius;           // [m]
 };
 
-// Something of the robot that touches the ground in one point.
+// Something of the robot that touches the ground, in one point, or another of its bodies.
 struct ContactShape {
     int part;         // as ground_truth_t.contact_part: actuator whose link (or belt) it belongs to; -1: base
     bool on_crawler;  // the surface moves with the belt of crawler `part`
-    double friction;  // Coulomb coefficient on the ground
+    double friction;  // Coulomb coefficient on the ground, or on another body
 };
 
 // Edge of a belt at one rounded end; rims are the first of the shapes.
@@ -34,9 +34,15 @@ struct Rim {
     int next_on_edge;        // at the rear: rim at the front end of the same edge; at the front: -1
 };
 
+// Coulomb coefficients.
+struct Frictions {
+    double crawler, arm;  // on the ground
+    double body;          // of a body on another
+};
+
 class Robot {
    public:
-    Robot(const RobotModel &model, double friction_crawler, double friction_arm);
+    Robot(const RobotModel &model, const Frictions &frictions);
 
     btMultiBody &multibody() { return multibody_; }
     const btMultiBody &multibody() const { return multibody_; }
@@ -45,17 +51,25 @@ class Robot {
     // Colliders with shapes; the user index of each is the number of its first shape.
     const std::vector<std::unique_ptr<btMultiBodyLinkCollider>> &colliders() const { return colliders_; }
     const std::vector<ContactShape> &shapes() const { return shapes_; }
+    // Number of the first shape that touches other bodies, those of model().solids in their order; all before it touch
+    // the ground.
+    int first_solid() const { return static_cast<int>(shapes_.size() - model_.solids.size()); }
     const std::vector<Rim> &rims() const { return rims_; }
-    // The ball that is `shape`, which must not be a rim, in the world.
+    // The ball that is `shape`, which must be neither a rim nor a solid, in the world.
     Ball ball(int shape) const;
     // Leaves this share of the friction to the belt of a crawler.
     void scale_friction(int crawler, double share);
 
     // Frame of the base link in the world.
-    Eigen::Isometry3d pose() const;
+    Eigen::Isometry3d pose() const { return body_frame(0); }
+    // Frame of a body in the world.
+    Eigen::Isometry3d body_frame(int body) const;
     void set_pose(const Eigen::Isometry3d &pose);
     // Brings link frames and colliders into line with pose and joint angles.
     void update_frames();
+    // Likewise what of the base may touch the ground beside the crawlers, of which Bullet does not know that it moves.
+    // It is apart, as it is seldom near.
+    void place_hull();
 
     Eigen::Vector3d centre_of_mass() const;
     Eigen::Vector3d centre_of_mass_velocity() const;
@@ -68,7 +82,9 @@ class Robot {
 
    private:
     void build_links();
-    void add_collider(int body, double friction_crawler, double friction_arm);
+    btMultiBodyLinkCollider &add_collider(int body, std::unique_ptr<btCompoundShape> compound, int first_shape);
+    void add_crawlers(double friction);
+    void add_balls(int body, double friction);
     void add_crawler_edges(btCompoundShape &compound, int crawler, double friction);
 
     RobotModel model_;
@@ -76,6 +92,7 @@ class Robot {
     btMultiBody multibody_;
     std::vector<std::unique_ptr<btCollisionShape>> geometry_;
     std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
+    btMultiBodyLinkCollider *hull_ = nullptr;
     std::vector<ContactShape> shapes_;
     std::vector<Rim> rims_;
     std::vector<Ball> balls_;  // after the rims among the shapes; in the frames of Bullet's links

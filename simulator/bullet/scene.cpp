@@ -48,7 +48,8 @@ Pipeline::Pipeline(btDispatcher *dispatcher, btBroadphaseInterface *broadphase, 
       joints(robot.model().actuators.size()),
       robot_(robot),
       ground_(ground),
-      solver_(solver) {
+      solver_(solver),
+      body_touches_(robot) {
     for (const auto &collider : robot_.colliders()) {
         addCollisionObject(collider.get(), robot_group, ground_group);
     }
@@ -66,13 +67,14 @@ void Pipeline::solveConstraints(btContactSolverInfo &info) {
     } else {
         ground_touches(robot_, ground_, touches_);
     }
+    body_touches_.find(robot_, touches_);
     contacts.swap(previous_);
     make_contacts(robot_, ground_, touches_, previous_, contacts);
     solver_.solve(robot_.multibody(), joints, contacts, info.m_timeStep);
 }
 
 Scene::Scene(const RobotModel &model, const settings &s, const Ground &ground, const std::vector<Failure> &failures)
-    : robot(model, s.simulator.friction_crawler, s.simulator.friction_arm),
+    : robot(model, {s.simulator.friction_crawler, s.simulator.friction_arm, s.simulator.friction_body}),
       drives(make_drives(model, s)),
       dispatcher_(&configuration_),
       ground_shape_(btVector3(0, 0, 1), 0),
@@ -217,6 +219,7 @@ void Scene::step() {
     for (int i = 0; i < dispatcher_.getNumManifolds(); i++) {
         dispatcher_.getManifoldByIndexInternal(i)->clearManifold();
     }
+    robot.place_hull();
     pipeline_.stepSimulation(time_step_, 0);
     for (std::size_t a = 0; a < drives.size(); a++) {
         drives[a].end_step(pipeline_.joints[a], multibody.getJointVel(static_cast<int>(a)));

@@ -8,6 +8,7 @@
 #include <btBulletDynamicsCommon.h>
 #include <vector>
 
+#include "bullet/body_touch.h"
 #include "bullet/contact.h"
 #include "bullet/robot.h"
 #include "bullet/solver.h"
@@ -38,6 +39,7 @@ class Pipeline final : public btMultiBodyDynamicsWorld {
     Robot &robot_;
     const Ground &ground_;
     Solver solver_;
+    BodyTouches body_touches_;
     std::vector<Touch> touches_;     // of the last step
     std::vector<Contact> previous_;  // contacts of the step before
 };

@@ -9,6 +9,8 @@ namespace {
 
 // Sweeps end early once none of them changes a velocity by more than this [m/s, rad/s].
 constexpr double velocity_tolerance = 1e-7;
+// What a contact between two bodies gives way along its tangents at the least, as a share of what the ground does.
+constexpr double least_effect = 1e-6;
 
 // What moves against the ground by less than this sticks to it [m/s].
 constexpr double slowest_slip = 1e-5;
@@ -96,8 +98,12 @@ void Solver::prepare_contacts(const std::vector<Contact> &contacts, double time_
         row.steady =
             contact.jacobian.bottomRows<max_dofs - dofs>().transpose().lazyProduct(velocity_.tail<max_dofs - dofs>());
         row.push = contact.depth > 0 ? share * contact.depth : contact.depth / time_step;
-        row.normal_step = 1 / (row.effect(0, 0) + compliance_);
-        const Eigen::Matrix2d tangential = row.effect.bottomRightCorner<2, 2>();
+        row.compliance = compliance_ / contact.firmness;
+        row.normal_step = 1 / (row.effect(0, 0) + row.compliance);
+        Eigen::Matrix2d tangential = row.effect.bottomRightCorner<2, 2>();
+        if (contact.other != Touch::ground) {  // two bodies may have no joint that moves them along each other
+            tangential.diagonal().array() += least_effect * compliance_;
+        }
         row.tangents.sticking = tangential.inverse();
         const double mean = 0.5 * tangential.trace(), half = 0.5 * (tangential(0, 0) - tangential(1, 1));
         row.tangents.slip_step = 1 / (mean + std::sqrt(half * half + tangential(0, 1) * tangential(0, 1)));
@@ -157,7 +163,7 @@ double Solver::relax(Contact &contact, const ContactRow &row) {
     relative += contact.jacobian.topRows<dofs>().transpose().lazyProduct(velocity_.head<dofs>());
     Eigen::Vector3d change;
     const double normal = std::max(
-        contact.impulse[0] + row.normal_step * (row.push - relative[0] - compliance_ * contact.impulse[0]), 0.0);
+        contact.impulse[0] + row.normal_step * (row.push - relative[0] - row.compliance * contact.impulse[0]), 0.0);
     change[0] = normal - contact.impulse[0];
     const Eigen::Vector2d slip = relative.tail<2>() + row.effect.block<2, 1>(1, 0) * change[0];
     const Eigen::Vector2d friction = contact.impulse.tail<2>();

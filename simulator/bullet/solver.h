@@ -31,6 +31,7 @@ class Solver {
         Eigen::Matrix3d effect;                       // relative velocity per unit impulse
         Eigen::Vector3d steady;                       // relative velocity from joints that keep their rates [m/s]
         double push;                                  // [m/s]
+        double compliance;                            // [1/kg]
         double normal_step;                           // impulse per lack of velocity along the normal [kg]
         Tangents tangents;
     };

@@ -136,7 +136,7 @@ void touch_crawlers(Search &search, const Robot &robot) {
 }
 
 void touch_balls(Search &search, const Robot &robot) {
-    for (std::size_t i = robot.rims().size(); i < robot.shapes().size(); i++) {
+    for (std::size_t i = robot.rims().size(); i < static_cast<std::size_t>(robot.first_solid()); i++) {
         const int shape = static_cast<int>(i);
         const auto [centre, radius] = robot.ball(shape);
         Clearance clearance = search.clearance(centre);

@@ -1,4 +1,4 @@
-// Where the robot touches the ground, or is about to.
+// Where the robot touches the ground, or is about to; what tells of touches between its bodies, too (body_touch.h).
 #pragma once
 
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
@@ -13,9 +13,12 @@ namespace limphome {
 
 struct Touch {
     int shape;               // index into Robot::shapes()
-    Eigen::Vector3d point;   // halfway between the shape and the ground [m]
-    Eigen::Vector3d normal;  // from the ground into the robot
+    Eigen::Vector3d point;   // halfway between the shape and what it touches [m]
+    Eigen::Vector3d normal;  // from there into the shape
     double depth;            // of penetration; below 0: gap [m]
+    int other = ground;      // what it touches: index into Robot::shapes(), or `ground`
+
+    static constexpr int ground = -1;
 };
 
 // Both fill `touches` ordered by shape, so that nothing depends on the order in which they were found; memory that it

@@ -103,11 +103,14 @@ void read_truth(const Robot &robot, const std::vector<Contact> &contacts, double
     for (const Contact &contact : touching(contacts)) {
         const auto i = static_cast<std::size_t>(truth.num_contacts++);
         const auto shape = static_cast<std::size_t>(contact.shape);
+        const bool on_ground = contact.other == Touch::ground;
         truth.contact_part[i] = static_cast<int8_t>(robot.shapes()[shape].part);
+        truth.contact_with[i] = static_cast<int8_t>(
+            on_ground ? ground_truth_t::GROUND : robot.shapes()[static_cast<std::size_t>(contact.other)].part);
         Eigen::Map<Eigen::Vector3d>(truth.contact_point[i]) = contact.point;
         Eigen::Map<Eigen::Vector3d>(truth.contact_normal[i]) = contact.frame.col(0);
         Eigen::Map<Eigen::Vector3d>(truth.contact_force[i]) = force(contact, time_step);
-        if (contact.impulse[0] > least * time_step) {
+        if (on_ground && contact.impulse[0] > least * time_step) {
             carrying.push_back(contact.point);
         }
     }

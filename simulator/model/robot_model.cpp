@@ -62,6 +62,12 @@ RobotModel make_model(const robot_description &robot) {
         model.bodies[static_cast<std::size_t>(s.body)].shapes.push_back(
             {s.kind, to_eigen(s.pose), to_eigen(s.half_size)});
     }
+    for (int i = 0; i < robot.num_shapes; i++) {
+        model.solids.push_back({robot.shapes[i].body, -1, robot_solid_of_shape(&robot.shapes[i])});
+    }
+    for (int c = 0; c < num_crawlers; c++) {
+        model.solids.push_back({0, c, robot_solid_of_belt(&robot.crawlers[c])});
+    }
     std::copy(&robot.may_meet[0][0], &robot.may_meet[0][0] + sizeof robot.may_meet, &model.may_meet[0][0]);
     return model;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <robot_description.h>
+#include <robot_solid.h>
 
 #include <Eigen/Geometry>
 #include <string>
@@ -13,11 +14,18 @@ namespace limphome {
 
 constexpr int num_crawlers = ROBOT_CRAWLERS;  // left, right
 
-// Part of a body that may touch the ground and, where `may_meet` says so, other bodies.
+// Part of a body that may touch the ground.
 struct Shape {
     robot_shape_kind kind;
     Eigen::Isometry3d pose;     // its middle, in the frame of the body
     Eigen::Vector3d half_size;  // as of robot_shape [m]
+};
+
+// Part of a body that may touch other bodies where `may_meet` says so: a shape, or the belt of a crawler.
+struct Solid {
+    int body;
+    int crawler;        // whose belt it is; -1: of none
+    robot_solid shape;  // in the frame of the body
 };
 
 struct Body {
@@ -54,6 +62,7 @@ struct RobotModel {
     std::vector<Body> bodies;                                // base, then one per actuator; each after its parent
     std::vector<Actuator> actuators;                         // left crawler, right crawler, arm joints from root to tip
     std::vector<Crawler> crawlers;                           // left, right
+    std::vector<Solid> solids;                               // shapes in the file's order, then the belts
     bool may_meet[ROBOT_MAX_BODIES][ROBOT_MAX_BODIES] = {};  // as of robot_description
 
     double mass() const;  // [kg]

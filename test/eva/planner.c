@@ -42,6 +42,10 @@ int main(void) {
     if (lh_controller_init(&controller, &config, &robot, &controlled) != LH_OK) {
         return 1;
     }
+    const lh_shapes shapes = crawler_shapes();
+    if (lh_controller_keep_apart(&controller, &shapes) != LH_OK) {
+        return 1;
+    }
     //@ loop unroll 0; loop widen_hints controller.task.episode.steps, 1999;
     while (Frama_C_interval(0, 1)) {
         switch (Frama_C_interval(0, 5)) {

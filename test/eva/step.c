@@ -49,6 +49,10 @@ int main(void) {
     if (lh_controller_init(&controller, &config, &robot, &controlled) != LH_OK) {
         return 1;
     }
+    const lh_shapes shapes = crawler_shapes();
+    if (lh_controller_keep_apart(&controller, &shapes) != LH_OK) {
+        return 1;
+    }
     choose_path(&controller.task.config.path);
     /* not unrolled, as it has no end; a bound for EVA to try, below the limit of steps */
     //@ loop unroll 0; loop widen_hints controller.task.episode.steps, 1999;

@@ -58,3 +58,38 @@ lh_state crawler_state(float x, float y, float heading) {
         .actuator_position = {0.0f, 0.0f, 0.0f, 0.6f, -1.5f},
     };
 }
+
+static lh_shape shape_box(int16_t link, lh_vec3 centre, lh_vec3 half) {
+    return (lh_shape){.link = link, .centre = centre, .rotation = no_rotation, .half = half};
+}
+
+static lh_shape shape_ball(int16_t link, lh_vec3 centre, float radius) {
+    return (lh_shape){.link = link, .centre = centre, .rotation = no_rotation, .radius = radius};
+}
+
+static lh_shape shape_belt(float y) {
+    const float half = 0.70710678f; /* a quarter of a turn about x, which brings z to -y */
+    return (lh_shape){.centre = {0.0f, y, 0.18f},
+                      .rotation = {half, half, 0.0f, 0.0f},
+                      .half = {0.62f, 0.0f, 0.15f},
+                      .radius = 0.18f,
+                      .disc = true};
+}
+
+lh_shapes crawler_shapes(void) {
+    const lh_shape all[] = {
+        shape_belt(0.475f),
+        shape_belt(-0.475f),
+        shape_ball(5, (lh_vec3){0.8f, 0.0f, 0.0f}, 0.08f),
+        shape_box(5, (lh_vec3){0.4f, 0.0f, 0.0f}, (lh_vec3){0.35f, 0.06f, 0.06f}),
+        shape_box(3, (lh_vec3){-0.1f, 0.0f, 0.43f}, (lh_vec3){0.5f, 0.4f, 0.43f}),
+        shape_box(4, (lh_vec3){0.55f, 0.0f, 0.0f}, (lh_vec3){0.5f, 0.07f, 0.08f}),
+        shape_ball(4, (lh_vec3){1.1f, 0.0f, 0.0f}, 0.08f),
+        shape_box(0, (lh_vec3){0.0f, 0.0f, 0.3f}, (lh_vec3){0.6f, 0.325f, 0.15f}),
+    };
+    lh_shapes shapes = {.may_meet = {[0] = 1u << 4 | 1u << 5, [3] = 1u << 5, [4] = 1u << 0, [5] = 1u << 0 | 1u << 3}};
+    for (int32_t i = 0; i < (int32_t)(sizeof all / sizeof all[0]) && i < LH_MAX_SHAPES; i++) {
+        shapes.shape[shapes.count++] = all[i];
+    }
+    return shapes;
+}

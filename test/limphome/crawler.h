@@ -7,6 +7,9 @@
 /* Actuators left and right crawler, swing, boom, arm; supports the four of the crawlers, then the tip. */
 lh_robot crawler_robot(void);
 
+/* Belts, arm, cabin, boom and chassis; the first of them if the library has no room for all. */
+lh_shapes crawler_shapes(void);
+
 /* As in the paper with the left crawler failed: right crawler, swing, boom, arm. */
 /* The same with all lengths by that factor. */
 lh_robot scaled_robot(const lh_robot *robot, float factor);

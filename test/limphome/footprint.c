@@ -21,7 +21,7 @@ enum {
     PLANNER = PLANNER_LEARNED + (52 + K) * B + 8 * A * P + 24 * A + 64 * LH_MAX_LINKS + 36 * P + 8 * W + 8 * K + 736,
     LEARNER = (Q_LEARNING > PLANNER ? Q_LEARNING : PLANNER) + 12,
     TASK = 20 * A + 64 * LH_MAX_LINKS + 20 * P + 8 * W + 192,
-    MONITOR = 14 * A + 216,
+    MONITOR = 14 * A + 4 * LH_MAX_LINKS + 48 * LH_MAX_SHAPES + 228,
     CONTROLLER = LEARNER + TASK + MONITOR
 };
 

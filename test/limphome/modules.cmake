@@ -6,7 +6,7 @@ set(limphome_test_modules
   task/action task/episode task/observation task/path task/reward task/task
   learning/boltzmann learning/learner learning/motion_model learning/network learning/planned learning/planner
   learning/planning learning/posture_values learning/q_learning
-  safety/forecast safety/interlock safety/monitor safety/plausibility safety/stuck
+  safety/collision safety/forecast safety/interlock safety/monitor safety/plausibility safety/solid safety/stuck
   controller limits runs)
 
 # Adds the program test_TOPIC of a module, whose tests lie in `folder`, with further sources; names the topic in `result`.

@@ -531,6 +531,36 @@ START_TEST(a_planner_keeps_clear_of_stops) {
 END_TEST
 
 /* Not a bit differs where there is nothing to intervene in. */
+/* Folded over its left crawler, the robot chooses by chance; it lowers its arm only while nobody knows of the crawler.
+ */
+START_TEST(parts_are_kept_apart_once_they_are_known) {
+    lh_config config = lh_config_default();
+    config.monitor.active = true;
+    config.monitor.joint.acceleration = 100.0f;
+    lh_state state = crawler_state(0.0f, 0.0f, facing_y);
+    state.actuator_position[2] = 0.6f;
+    state.actuator_position[3] = 0.1f;
+    state.actuator_position[4] = -2.3f;
+    for (int32_t known = 0; known < 2; known++) {
+        init(&controller, &config);
+        lh_shapes shapes = crawler_shapes();
+        if (known) {
+            ck_assert_int_eq(lh_controller_keep_apart(&controller, &shapes), LH_OK);
+        }
+        other = controller;
+        shapes.shape[2].link = 6;
+        ck_assert_int_eq(lh_controller_keep_apart(&controller, &shapes), LH_ERROR_ROBOT);
+        ck_assert_mem_eq(&controller, &other, sizeof controller);
+        for (int32_t i = 0; i < 100; i++) {
+            const lh_decision d = step(&controller, &state);
+            lh_controller_gap(&controller); /* that it stays where it is tells nothing of its joints */
+            ck_assert((d.intervention.hazards & LH_HAZARD_COLLISION) == 0 || (d.intervention.stilled & 0x1c) != 0);
+        }
+        ck_assert(known ? controller.monitor.counts.hazards[10] > 10 : controller.monitor.counts.hazards[10] == 0);
+    }
+}
+END_TEST
+
 START_TEST(the_monitor_changes_nothing_else) {
     init_guarded(LH_Q_LEARNING);
     const lh_config config = lh_config_default();
@@ -613,6 +643,7 @@ Suite *suite(void) {
     tcase_add_test(t, put_back_is_no_jump);
     tcase_add_test(t, what_is_executed_is_learned);
     tcase_add_test(t, a_planner_keeps_clear_of_stops);
+    tcase_add_test(t, parts_are_kept_apart_once_they_are_known);
     tcase_add_test(t, the_monitor_changes_nothing_else);
     suite_add_tcase(s, t);
     t = tcase_create("episodes");

@@ -74,7 +74,7 @@ static void read_with(const char *element, const char *mesh, const char *package
 
 static void expect_slab(void) {
     ck_assert_msg(m.good, "%s", m.good ? "" : m.report.faults[0]);
-    const robot_shape *slab = &m.description.shapes[2];
+    const robot_shape *slab = &m.description.shapes[4];
     static const double half[3] = {0.2, 0.1, 0.05};
     ck_assert_str_eq(slab->name, "boom");
     ck_assert_int_eq(slab->kind, ROBOT_BOX);

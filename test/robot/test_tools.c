@@ -386,7 +386,7 @@ END_TEST
 
 START_TEST(unknown_elements_are_told_of) {
     read_edited("<inertial>", "<inertail/><inertial>");
-    edited_expect_notice(&e, ":11: <link name=\"base\"> <inertail>: is no element of URDF");
+    edited_expect_notice(&e, ":12: <link name=\"base\"> <inertail>: is no element of URDF");
     edited_end(&e);
 }
 END_TEST

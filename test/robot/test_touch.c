@@ -36,7 +36,7 @@ static const struct {
 START_TEST(shapes_that_are_the_belt_are_left_out) {
     read_with(belts[_i].link, belts[_i].shape);
     edited_expect_notice(&e, belts[_i].notice);
-    ck_assert_int_eq(e.robot.num_shapes, 3); /* tip, cabin, elbow */
+    ck_assert_int_eq(e.robot.num_shapes, 6); /* tip, chassis, cabin, boom, elbow, arm */
     edited_end(&e);
 }
 END_TEST
@@ -72,10 +72,10 @@ END_TEST
 START_TEST(hubs_are_kept) {
     read_with("left_sprocket", SHAPE("rpy='1.570796327 0 0'", "<cylinder radius='0.1' length='0.5'/>"));
     edited_expect_good(&e);
-    ck_assert_int_eq(e.robot.num_shapes, 4);
-    ck_assert_int_eq(e.robot.shapes[1].body, 1);
-    ck_assert_int_eq(e.robot.shapes[1].kind, ROBOT_CYLINDER);
-    ck_assert_double_eq(e.robot.shapes[1].half_size[2], 0.25);
+    ck_assert_int_eq(e.robot.num_shapes, 7);
+    ck_assert_int_eq(e.robot.shapes[2].body, 1);
+    ck_assert_int_eq(e.robot.shapes[2].kind, ROBOT_CYLINDER);
+    ck_assert_double_eq(e.robot.shapes[2].half_size[2], 0.25);
     edited_end(&e);
 }
 END_TEST

@@ -2,7 +2,7 @@
  * Define any of them on the command line to make the library smaller or larger; all sources and callers must agree.
  *
  * At most so many bytes, with S = LH_UNIT_SLOTS, U = LH_MAX_UNITS, C = LH_COLUMN_SLOTS, A = LH_MAX_ACTUATORS, 3 or
- * more, L = LH_MAX_LINKS, P = LH_MAX_SUPPORTS, W = LH_MAX_WAYPOINTS, N = LH_MAX_SAMPLES, M = LH_MAX_POSTURES,
+ * more, L = LH_MAX_LINKS, P = LH_MAX_SUPPORTS, H = LH_MAX_SHAPES, W = LH_MAX_WAYPOINTS, N = LH_MAX_SAMPLES, M = LH_MAX_POSTURES,
  * K = LH_MAX_PLANNED and B = LH_PLANNED_ACTIONS:
  *
  *     lh_network         8 + 4 S (2 A + 4)
@@ -12,7 +12,7 @@
  *     lh_planner         lh_planner_learned + (52 + K) B + 8 A P + 24 A + 64 L + 36 P + 8 W + 8 K + 736
  *     lh_learner         the larger of lh_q_learning and lh_planner, + 12
  *     lh_task            20 A + 64 L + 20 P + 8 W + 192
- *     lh_monitor         14 A + 216
+ *     lh_monitor         14 A + 4 L + 48 H + 228
  *     lh_controller      lh_learner + lh_task + lh_monitor
  *
  * and on the stack, where lh_controller_step takes the most, about 1750 + 70 P.
@@ -29,10 +29,13 @@
 #define LH_MAX_UNITS 64 /* basis functions of the network */
 #endif
 #ifndef LH_MAX_LINKS
-#define LH_MAX_LINKS 16 /* rigid bodies of the robot */
+#define LH_MAX_LINKS (LH_MAX_ACTUATORS + 1) /* rigid bodies of the robot */
 #endif
 #ifndef LH_MAX_SUPPORTS
 #define LH_MAX_SUPPORTS 12 /* points on which the robot can stand */
+#endif
+#ifndef LH_MAX_SHAPES
+#define LH_MAX_SHAPES 32 /* parts of the robot that the monitor keeps apart */
 #endif
 #ifndef LH_MAX_WAYPOINTS
 #define LH_MAX_WAYPOINTS 8 /* of a path */

@@ -29,6 +29,7 @@ uint32_t lh_interlock_hazards(const lh_guarded *a, bool joints_unsafe) {
     hazards += runs_into_stop(a) ? LH_HAZARD_STOP : 0;
     hazards += a->failed ? LH_HAZARD_FAILED : 0;
     hazards += a->stuck ? LH_HAZARD_STUCK : 0;
+    hazards += a->collides ? LH_HAZARD_COLLISION : 0;
     return hazards;
 }
 

@@ -28,10 +28,11 @@ typedef enum lh_hazard {
     LH_HAZARD_ACCELERATION = 64, /* so is its change */
     LH_HAZARD_STOP = 128,        /* the joint would run into its stop */
     LH_HAZARD_FAILED = 256,      /* the plant says that the actuator does not obey */
-    LH_HAZARD_STUCK = 512        /* the joint was commanded and did not move */
+    LH_HAZARD_STUCK = 512,       /* the joint was commanded and did not move */
+    LH_HAZARD_COLLISION = 1024   /* parts of the robot would come together by the joint */
 } lh_hazard;
 
-#define LH_HAZARDS 10 /* bits in use */
+#define LH_HAZARDS 11 /* bits in use */
 
 /* One actuator: what is proposed, and what is known of it. */
 typedef struct lh_guarded {
@@ -39,6 +40,7 @@ typedef struct lh_guarded {
     bool is_joint;      /* false: a crawler, for which angle, ahead, low and high are not read */
     bool failed;        /* the plant says so */
     bool stuck;         /* found to be */
+    bool collides;      /* a joint that would bring parts of the robot together */
     float velocity;     /* of the level [m/s or rad/s] */
     float change;       /* from the velocity executed before to this one [m/s or rad/s] */
     float speed_limit;  /* largest magnitude of velocity, 0 or more */
@@ -62,7 +64,7 @@ typedef struct lh_verdict {
   @                   (a->velocity < 0 && (a->angle <= a->low || a->ahead < a->low)));
   @ predicate lh_hazardous{L}(lh_guarded *a, integer joints_unsafe) =
   @   lh_beyond(a->velocity, a->speed_limit) || lh_beyond(a->change, a->change_limit) || lh_into_stop(a) ||
-  @   a->failed || a->stuck || (joints_unsafe != 0 && a->is_joint);
+  @   a->failed || a->stuck || a->collides || (joints_unsafe != 0 && a->is_joint);
   @ predicate lh_is_still{L}(lh_verdict *v, integer k) = v->level[k] == LH_STILL && v->velocity[k] == 0;
   @*/
 
@@ -100,7 +102,7 @@ uint32_t lh_interlock_hazards(const lh_guarded *a, bool joints_unsafe);
   @   \old(guarded[k].is_joint && (guarded[k].angle <= guarded[k].low || guarded[k].ahead < guarded[k].low)) ==>
   @   verdict->velocity[k] >= 0;
   @ ensures out_of_order: \forall integer k; 0 <= k < count ==>
-  @   \old(guarded[k].failed || guarded[k].stuck) ==> lh_is_still(verdict, k);
+  @   \old(guarded[k].failed || guarded[k].stuck || guarded[k].collides) ==> lh_is_still(verdict, k);
   @ ensures joints_stop: joints_unsafe ==> \forall integer k; 0 <= k < count ==>
   @   \old(guarded[k].is_joint) ==> lh_is_still(verdict, k);
   @ ensures whole_stop: whole != 0 ==> \forall integer k; 0 <= k < LH_MAX_ACTUATORS ==> lh_is_still(verdict, k);

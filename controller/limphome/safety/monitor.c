@@ -14,6 +14,7 @@ lh_monitor_config lh_monitor_config_default(void) {
         .joint = {.speed = 0.5f, .acceleration = 2.0f},
         .stop_clearance = 0.0f,
         .margin_floor = 0.0f,
+        .collision_clearance = 0.02f,
         .tilt = LH_PI / 3.0f,
         .slack = {.position = 1.0f, .attitude = 1.0f, .joint = 0.5f},
     };
@@ -29,6 +30,7 @@ lh_error lh_monitor_config_validate(const lh_monitor_config *config) {
         lh_within(config->period, LH_MONITOR_PERIOD_MIN, LH_MONITOR_PERIOD_MAX) && is_good_limit(&config->crawler) &&
         is_good_limit(&config->joint) && lh_within(config->stop_clearance, 0.0f, LH_STOP_CLEARANCE_MAX) &&
         lh_within(config->margin_floor, LH_MARGIN_FLOOR_MIN, LH_MARGIN_FLOOR_MAX) &&
+        lh_within(config->collision_clearance, 0.0f, LH_COLLISION_CLEARANCE_MAX) &&
         lh_within(config->tilt, LH_TILT_LIMIT_MIN, LH_TILT_LIMIT_MAX) &&
         lh_within(config->slack.position, 0.0f, LH_JUMP_MAX) && lh_within(config->slack.attitude, 0.0f, LH_JUMP_MAX) &&
         lh_within(config->slack.joint, 0.0f, LH_JUMP_MAX);
@@ -130,13 +132,42 @@ static lh_guarded describe(const lh_monitor *monitor, const lh_task *task, const
     };
 }
 
+/* Where the joints are after a decision. */
+static void look_ahead(const lh_monitor *monitor, const lh_task *task, const lh_state *state, const lh_verdict *verdict,
+                       float *next) {
+    for (int32_t k = 0; k < task->robot.num_actuators; k++) {
+        next[k] = state->actuator_position[k] + verdict->velocity[k] * monitor->config.period;
+    }
+}
+
+/* Stills the joints that would bring parts of the robot together. What is left may do so with others: this ends, as
+ * each round stills one more at least. */
+static void keep_apart(const lh_monitor *monitor, const lh_task *task, const lh_state *state, uint32_t whole,
+                       lh_guarded *guarded, lh_verdict *verdict) {
+    uint32_t stilled = 0;
+    for (;;) {
+        float next[LH_MAX_ACTUATORS];
+        look_ahead(monitor, task, state, verdict, next);
+        uint32_t joints = lh_collision_joints(&task->robot, &monitor->shapes, monitor->config.collision_clearance,
+                                              state->actuator_position, next);
+        if (joints == 0) {
+            return;
+        }
+        stilled |= joints;
+        for (int32_t k = 0; k < task->robot.num_actuators; k++) {
+            guarded[k].collides = (stilled >> k & 1u) != 0;
+        }
+        lh_interlock(guarded, task->robot.num_actuators, whole, false, verdict);
+    }
+}
+
 /* Whether the joints, moved as in `verdict`, leave a margin that is below its floor and below what it is without. */
 static bool lowers_margin(const lh_monitor *monitor, const lh_task *task, const lh_state *state, lh_quat attitude,
                           const lh_verdict *verdict) {
     float next[LH_MAX_ACTUATORS];
     bool moves = false;
+    look_ahead(monitor, task, state, verdict, next);
     for (int32_t k = 0; k < task->robot.num_actuators; k++) {
-        next[k] = state->actuator_position[k] + verdict->velocity[k] * monitor->config.period;
         moves = moves || (task->robot.actuators[k].kind == LH_JOINT && verdict->level[k] != LH_STILL);
     }
     if (!moves) {
@@ -176,6 +207,7 @@ void lh_monitor_check(lh_monitor *monitor, const lh_task *task, const lh_state *
     guard(monitor, task, state, action, velocity, guarded);
     uint32_t whole = lh_quat_tilt(attitude) <= monitor->config.tilt ? 0 : (uint32_t)LH_HAZARD_TILT;
     lh_interlock(guarded, count_of_robot, whole, false, &verdict);
+    keep_apart(monitor, task, state, whole, guarded, &verdict);
     if (lowers_margin(monitor, task, state, attitude, &verdict)) {
         lh_interlock(guarded, count_of_robot, whole, true, &verdict);
     }

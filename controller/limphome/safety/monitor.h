@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "limphome/safety/collision.h"
 #include "limphome/safety/interlock.h"
 #include "limphome/safety/plausibility.h"
 #include "limphome/safety/stuck.h"
@@ -19,16 +20,17 @@ extern "C" {
 #endif
 
 /* Ranges of lh_monitor_config. */
-#define LH_MONITOR_PERIOD_MIN 0.01f    /* [s] */
-#define LH_MONITOR_PERIOD_MAX 10.0f    /* [s] */
-#define LH_SPEED_LIMIT_MAX 10.0f       /* [m/s or rad/s] */
-#define LH_ACCELERATION_LIMIT_MAX 1e4f /* [m/s^2 or rad/s^2] */
-#define LH_STOP_CLEARANCE_MAX 1.0f     /* [rad] */
-#define LH_MARGIN_FLOOR_MIN (-1.0f)    /* [m]; the forecast is never below it */
-#define LH_MARGIN_FLOOR_MAX 1.0f       /* [m] */
-#define LH_TILT_LIMIT_MIN 0.1f         /* [rad] */
-#define LH_TILT_LIMIT_MAX 3.15f        /* [rad]; above pi: none */
-#define LH_JUMP_MAX 1e7f               /* [m or rad]; above all that is valid: none */
+#define LH_MONITOR_PERIOD_MIN 0.01f     /* [s] */
+#define LH_MONITOR_PERIOD_MAX 10.0f     /* [s] */
+#define LH_SPEED_LIMIT_MAX 10.0f        /* [m/s or rad/s] */
+#define LH_ACCELERATION_LIMIT_MAX 1e4f  /* [m/s^2 or rad/s^2] */
+#define LH_STOP_CLEARANCE_MAX 1.0f      /* [rad] */
+#define LH_MARGIN_FLOOR_MIN (-1.0f)     /* [m]; the forecast is never below it */
+#define LH_MARGIN_FLOOR_MAX 1.0f        /* [m] */
+#define LH_COLLISION_CLEARANCE_MAX 1.0f /* [m] */
+#define LH_TILT_LIMIT_MIN 0.1f          /* [rad] */
+#define LH_TILT_LIMIT_MAX 3.15f         /* [rad]; above pi: none */
+#define LH_JUMP_MAX 1e7f                /* [m or rad]; above all that is valid: none */
 
 /* Of crawlers and of joints. */
 typedef struct lh_motion_limit {
@@ -38,12 +40,14 @@ typedef struct lh_motion_limit {
 } lh_motion_limit;
 
 typedef struct lh_monitor_config {
-    bool active;             /* false: only invalid and stale states still the robot. Default false */
-    float period;            /* of a decision, LH_MONITOR_PERIOD_MIN to _MAX [s]; default 0.5 */
-    lh_motion_limit crawler; /* default 0.5 m/s and 2 m/s^2 */
-    lh_motion_limit joint;   /* default 0.5 rad/s and 2 rad/s^2 */
-    float stop_clearance;    /* no joint is driven nearer to its stop, 0 to LH_STOP_CLEARANCE_MAX [rad]; default 0 */
-    float margin_floor;      /* the margin (11) is not lowered below it, LH_MARGIN_FLOOR_MIN to _MAX [m]; default 0 */
+    bool active;               /* false: only invalid and stale states still the robot. Default false */
+    float period;              /* of a decision, LH_MONITOR_PERIOD_MIN to _MAX [s]; default 0.5 */
+    lh_motion_limit crawler;   /* default 0.5 m/s and 2 m/s^2 */
+    lh_motion_limit joint;     /* default 0.5 rad/s and 2 rad/s^2 */
+    float stop_clearance;      /* no joint is driven nearer to its stop, 0 to LH_STOP_CLEARANCE_MAX [rad]; default 0 */
+    float margin_floor;        /* the margin (11) is not lowered below it, LH_MARGIN_FLOOR_MIN to _MAX [m]; default 0 */
+    float collision_clearance; /* parts of the robot are not brought nearer to each other, 0 to
+                                  LH_COLLISION_CLEARANCE_MAX [m]; default 0.02 */
     float tilt; /* of the body, beyond which nothing moves, LH_TILT_LIMIT_MIN to _MAX [rad]; default pi/3, which is a
                    tumble: a robot that is put back then is not held for ever */
     lh_jump_limits slack; /* what a state may differ from the one before more than the fastest motion explains, each 0
@@ -59,6 +63,7 @@ typedef struct lh_monitor_counts {
 
 typedef struct lh_monitor {
     lh_monitor_config config;
+    lh_shapes shapes; /* that are kept apart, of the task's robot; none from the start */
     lh_plausibility plausibility;
     lh_stuck stuck;
     bool moving;                      /* `executed` led to the next state, from `plausibility.believed` */

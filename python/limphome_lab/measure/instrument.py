@@ -6,6 +6,7 @@ import subprocess
 
 import numpy as np
 
+from limphome import ground_truth_t
 from limphome_lab import paths
 from limphome_lab.measure.validation.statics import GRAVITY
 from limphome_lab.robot import rotation_of
@@ -41,7 +42,8 @@ class Report:
 
     def forces(self, part=None):
         """[n x 3] of the ground on the robot [N]."""
-        return np.array([c["force"] for c in self.contacts if part in (None, c["part"])]).reshape(-1, 3)
+        on_ground = [c for c in self.contacts if c["with"] == ground_truth_t.GROUND]
+        return np.array([c["force"] for c in on_ground if part in (None, c["part"])]).reshape(-1, 3)
 
 
 class Instrument:

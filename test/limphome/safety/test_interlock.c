@@ -91,6 +91,17 @@ START_TEST(what_is_out_of_order_is_told) {
 }
 END_TEST
 
+START_TEST(what_would_collide_is_told) {
+    lh_guarded a = free_joint();
+    a.collides = true;
+    ck_assert_uint_eq(hazards_of(a), LH_HAZARD_COLLISION);
+    a.stuck = true;
+    ck_assert_uint_eq(hazards_of(a), LH_HAZARD_COLLISION | LH_HAZARD_STUCK);
+    a.level = STILL;
+    ck_assert_uint_eq(hazards_of(a), 0);
+}
+END_TEST
+
 START_TEST(an_unsafe_margin_is_the_joints) {
     lh_guarded a = free_joint();
     ck_assert_uint_eq(lh_interlock_hazards(&a, true), LH_HAZARD_MARGIN);
@@ -244,6 +255,7 @@ Suite *suite(void) {
     tcase_add_test(t, a_change_at_its_limit_passes);
     tcase_add_test(t, no_joint_is_driven_into_its_stop);
     tcase_add_test(t, what_is_out_of_order_is_told);
+    tcase_add_test(t, what_would_collide_is_told);
     tcase_add_test(t, an_unsafe_margin_is_the_joints);
     tcase_add_test(t, no_number_is_within_no_limit);
     suite_add_tcase(s, t);

@@ -81,6 +81,7 @@ START_TEST(bad_fields_are_named) {
     BAD(joint.acceleration, -1.0f);
     BAD(stop_clearance, 1.1f);
     BAD(margin_floor, -1.1f);
+    BAD(collision_clearance, 1.1f);
     BAD(tilt, 0.0f);
     BAD(slack.position, -1.0f);
     BAD(slack.attitude, NAN);
@@ -204,6 +205,57 @@ START_TEST(the_margin_keeps_above_its_floor) {
     ck_assert_uint_eq(check(&state, outwards), LH_HAZARD_MARGIN);
     ck_assert_uint_eq(check(&state, inwards), 0);
     ck_assert_uint_eq(check(&state, action_of(REVERSE, STILL, STILL, STILL)), 0);
+}
+END_TEST
+
+/* Folded and turned aside, over the left crawler. */
+static lh_state over_the_crawler(float boom) {
+    lh_state state = standing();
+    state.actuator_position[2] = 0.6f;
+    state.actuator_position[3] = boom;
+    state.actuator_position[4] = -2.4f;
+    return state;
+}
+
+START_TEST(the_arm_is_not_lowered_on_a_crawler) {
+    lh_monitor_config config = lh_monitor_config_default();
+    init_with(&config);
+    monitor.shapes = crawler_shapes();
+    lh_state state = over_the_crawler(0.1f);
+    ck_assert_uint_eq(check(&state, action_of(FORWARD, STILL, REVERSE, STILL)), LH_HAZARD_COLLISION);
+    expect_executed(FORWARD, STILL, STILL, STILL, 1u << 3);
+    ck_assert_uint_eq(check(&state, action_of(FORWARD, FORWARD, FORWARD, STILL)), 0);
+    init_with(&config); /* which knows of no shapes */
+    ck_assert_uint_eq(check(&state, action_of(FORWARD, STILL, REVERSE, STILL)), 0);
+}
+END_TEST
+
+/* Whatever is let through leaves parts apart by the clearance, or no nearer than they were. */
+START_TEST(what_is_executed_keeps_parts_apart) {
+    lh_monitor_config config = lh_monitor_config_default();
+    config.margin_floor = -1.0f;
+    config.slack = (lh_jump_limits){1e6f, 1e6f, 1e6f};
+    config.joint.acceleration = 100.0f;
+    init_with(&config);
+    monitor.shapes = crawler_shapes();
+    lh_random random;
+    lh_random_init(&random, 5);
+    int32_t found = 0;
+    for (int32_t i = 0; i < 3000; i++) {
+        lh_state state = standing();
+        for (int32_t k = 2; k < 5; k++) {
+            const lh_actuator *joint = &task.robot.actuators[k];
+            state.actuator_position[k] = joint->low + (joint->high - joint->low) * lh_random_uniform(&random);
+        }
+        lh_monitor_begin(&monitor);
+        found += (check(&state, (int32_t)(lh_random_next(&random) % 81)) & LH_HAZARD_COLLISION) != 0;
+        float next[LH_MAX_ACTUATORS];
+        for (int32_t k = 0; k < 5; k++) {
+            next[k] = state.actuator_position[k] + 0.5f * velocity[k];
+        }
+        ck_assert_uint_eq(lh_collision_joints(&task.robot, &monitor.shapes, 0.02f, state.actuator_position, next), 0);
+    }
+    ck_assert_int_gt(found, 50);
 }
 END_TEST
 
@@ -334,6 +386,7 @@ START_TEST(any_states) {
     config.crawler.acceleration = 1.0f;
     config.margin_floor = 0.1f;
     init_with(&config);
+    monitor.shapes = crawler_shapes();
     lh_random random;
     lh_random_init(&random, 11);
     float before[LH_MAX_ACTUATORS] = {0.0f};
@@ -385,6 +438,8 @@ Suite *suite(void) {
     tcase_add_test(t, accelerations_are_from_what_was_executed);
     tcase_add_test(t, no_command_into_a_stop);
     tcase_add_test(t, the_margin_keeps_above_its_floor);
+    tcase_add_test(t, the_arm_is_not_lowered_on_a_crawler);
+    tcase_add_test(t, what_is_executed_keeps_parts_apart);
     tcase_add_test(t, a_tilted_robot_does_not_move);
     tcase_add_test(t, a_failed_actuator_is_still);
     tcase_add_test(t, a_joint_that_does_not_move_is_found);

@@ -55,7 +55,7 @@ TEST(Robot, CentreOfMassVelocityIsItsDerivative) {
 }
 
 TEST(Robot, PoseIsThatOfTheBaseLink) {
-    Robot robot(paper_robot(), 0.7, 0.7);
+    Robot robot(paper_robot(), {0.7, 0.7, 0});
     Eigen::Isometry3d pose(Eigen::Translation3d(1, 2, 3));
     pose.rotate(Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized()));
     robot.set_pose(pose);
@@ -66,13 +66,13 @@ TEST(Robot, PoseIsThatOfTheBaseLink) {
 TEST(Robot, SkewInertiaIsKept) {
     RobotModel model = paper_robot();
     model.bodies[0].inertia << 75, 5, -8, 5, 110, 6, -8, 6, 165;
-    Robot robot(model, 0.7, 0.7);
+    Robot robot(model, {0.7, 0.7, 0});
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     robot.set_pose(pose);
     const GeneralMatrix mass = mass_matrix(robot.multibody());
     RobotModel point = model;
     point.bodies[0].inertia.setIdentity();
-    Robot other(point, 0.7, 0.7);
+    Robot other(point, {0.7, 0.7, 0});
     other.set_pose(pose);
     // the base's own inertia is what differs, up to the point of reference that both share
     const Eigen::Matrix3d difference = (mass - mass_matrix(other.multibody())).topLeftCorner<3, 3>();

@@ -21,8 +21,8 @@ TEST(TwoArm, HasSevenActuatorsAndTwoTips) {
     ASSERT_EQ(model.actuators.size(), 7u);
     EXPECT_EQ(model.actuators[right_arm].name, "right_arm");
     EXPECT_EQ(model.bodies[1 + right_boom].parent, 1 + swing);
-    EXPECT_EQ(model.bodies[1 + left_arm].shapes.size(), 1u);
-    EXPECT_EQ(model.bodies[1 + right_arm].shapes.size(), 1u);
+    EXPECT_EQ(model.bodies[1 + left_arm].shapes.size(), 2u);
+    EXPECT_EQ(model.bodies[1 + right_arm].shapes.size(), 2u);
     EXPECT_NEAR(model.mass(), 498 + 2 + 350 + 2 * (45 + 25), 1e-9);
 }
 

@@ -38,7 +38,7 @@ TEST(RobotModel, HasItsShapes) {
     EXPECT_EQ(model.bodies[3].shapes[0].kind, ROBOT_BOX);
     EXPECT_EQ(model.bodies[3].shapes[0].half_size, Eigen::Vector3d(0.5, 0.4, 0.43));
     EXPECT_EQ(model.bodies[3].shapes[0].pose.translation(), Eigen::Vector3d(-0.1, 0, 0.43));
-    ASSERT_EQ(model.bodies[5].shapes.size(), 1u);  // the tip
+    ASSERT_EQ(model.bodies[5].shapes.size(), 2u);  // the tip first
     EXPECT_EQ(model.bodies[5].shapes[0].half_size.x(), 0.08);
     EXPECT_TRUE(model.may_meet[0][5]);
     EXPECT_FALSE(model.may_meet[4][5]);
