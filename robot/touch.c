@@ -102,8 +102,9 @@ static bool belongs_to_belt(struct reading *r, const struct candidate *c, const 
         fault(r, c->at, NULL,
               "turns with the sprocket of a crawler and reaches beyond the crawler (length %g, width %g, radius %g m); "
               "must "
-              "lie within it, be round about the sprocket's axis, or be on another link",
-              robot->crawlers[body - 1].length, robot->crawlers[body - 1].width, robot->crawlers[body - 1].radius);
+              "lie within it, be round about the sprocket's axis, or be left out by <no_contact link1=\"%s\"/>",
+              robot->crawlers[body - 1].length, robot->crawlers[body - 1].width, robot->crawlers[body - 1].radius,
+              c->shape.name);
     }
     return false;
 }
@@ -120,13 +121,13 @@ static void check_above_ground(struct reading *r, const struct candidate *c, con
     if (lowest < -BELOW_GROUND * mean_radius(robot)) {
         fault(r, c->at, NULL,
               "reaches %.3g m below the ground on which the crawlers stand%s: the robot would stand on it, not on its "
-              "crawlers",
-              -lowest, is_arm ? " (in the initial pose, home)" : "");
+              "crawlers; must not, or be left out by <no_contact link1=\"%s\"/>",
+              -lowest, is_arm ? " (in the initial pose, home)" : "", c->shape.name);
     } else if (!is_arm && lowest < CLEARANCE) {
         fault(r, c->at, NULL,
               "reaches down to %g m above the ground on which the crawlers stand: part of the weight would rest on it; "
-              "must end %g m above it, or lie within a crawler",
-              rint(lowest * 1e4) / 1e4 + 0.0, CLEARANCE);
+              "must end %g m above it, lie within a crawler, or be left out by <no_contact link1=\"%s\"/>",
+              rint(lowest * 1e5) / 1e5 + 0.0, CLEARANCE, c->shape.name);
     }
 }
 
