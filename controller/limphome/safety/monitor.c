@@ -173,8 +173,7 @@ static bool lowers_margin(const lh_monitor *monitor, const lh_task *task, const 
     if (!moves) {
         return false;
     }
-    lh_forecast margin =
-        lh_forecast_margin(&task->robot, attitude, state->actuator_position, next);
+    lh_forecast margin = lh_forecast_margin(&task->robot, attitude, state->actuator_position, next);
     return margin.moving < monitor->config.margin_floor && margin.moving < margin.still;
 }
 
