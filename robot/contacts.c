@@ -21,7 +21,11 @@ static bool read_self_contact(struct reading *r, const struct xml_element *exten
 
 static void read_exception(struct reading *r, const struct elements *e, const struct xml_element *at,
                            robot_description *robot) {
-    const int first = read_known(r, at, "link1", e, find_link), second = read_known(r, at, "link2", e, find_link);
+    const int first = read_known(r, at, "link1", e, find_link);
+    if (xml_attribute(at, "link2") == NULL) { /* its shapes have been left out */
+        return;
+    }
+    const int second = read_known(r, at, "link2", e, find_link);
     if (first < 0 || second < 0) {
         return;
     }

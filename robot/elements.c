@@ -65,25 +65,70 @@ static void read_inertia(struct reading *r, const struct xml_element *at, matrix
     }
 }
 
-static void read_inertial(struct reading *r, struct file_link *link) {
+/* The first of the elements of that name in <limphome> that names the link by `key`, or NULL. */
+static const struct xml_element *in_extension(const struct elements *e, const char *element, const char *key,
+                                              const char *link) {
+    const struct xml_element *extension = xml_child(e->robot, "limphome");
+    const struct xml_element *at = extension != NULL ? xml_child(extension, element) : NULL;
+    for (; at != NULL; at = xml_again(at)) {
+        const char *named = xml_attribute(at, key);
+        if (named != NULL && strcmp(named, link) == 0) {
+            return at;
+        }
+    }
+    return NULL;
+}
+
+/* <inertial> of the extension, in place of the link's own: that of a box of even density. */
+static void read_box_inertial(struct reading *r, const struct xml_element *at, struct file_link *link) {
+    vector size = {1, 1, 1};
+    link->inertial = frame_identity();
+    link->mass_at = link->inertia_at = at;
+    read_positive(r, at, "mass", true, MOST_KILOGRAMS, &link->mass);
+    read_vector(r, at, "xyz", false, MOST_METRES, &link->inertial.origin);
+    if (read_vector(r, at, "size", true, MOST_METRES, &size) && !(size.x > 0 && size.y > 0 && size.z > 0)) {
+        fault(r, at, "size", "must be three lengths above 0");
+    }
+    const double x = size.x * size.x, y = size.y * size.y, z = size.z * size.z, share = link->mass / 12;
+    link->inertia = (matrix){{{share * (y + z), 0, 0}, {0, share * (x + z), 0}, {0, 0, share * (x + y)}}};
+}
+
+static void read_inertial(struct reading *r, const struct elements *e, struct file_link *link) {
+    const struct xml_element *given = in_extension(e, "inertial", "link", link->name);
+    if (given != NULL) {
+        read_box_inertial(r, given, link);
+        return;
+    }
     link->inertial = frame_identity();
     const struct xml_element *inertial = read_child(r, link->at, "inertial");
     if (inertial == NULL) {
         return;
     }
     link->inertial = read_origin(r, inertial);
-    const struct xml_element *mass = read_child(r, inertial, "mass");
+    link->mass_at = read_child(r, inertial, "mass");
     link->inertia_at = read_child(r, inertial, "inertia");
-    if (mass == NULL) {
+    if (link->mass_at == NULL) {
         fault(r, inertial, NULL, "needs <mass>");
     } else {
-        read_not_negative(r, mass, "value", true, MOST_KILOGRAMS, &link->mass);
+        read_not_negative(r, link->mass_at, "value", true, MOST_KILOGRAMS, &link->mass);
     }
     if (link->inertia_at != NULL) {
         read_inertia(r, link->inertia_at, &link->inertia);
     } else if (link->mass > 0) {
         fault(r, inertial, NULL, "needs <inertia>");
     }
+}
+
+/* Whether the extension leaves the shapes of a link out: they are not looked at, nor are their meshes. */
+static bool touches_nothing(const struct elements *e, const char *name) {
+    const struct xml_element *at = in_extension(e, "no_contact", "link1", name);
+    for (; at != NULL; at = xml_again(at)) {
+        const char *link = xml_attribute(at, "link1");
+        if (link != NULL && strcmp(link, name) == 0 && xml_attribute(at, "link2") == NULL) {
+            return true;
+        }
+    }
+    return false;
 }
 
 static void read_link(struct reading *r, const struct elements *e, struct file_link *link) {
@@ -93,8 +138,10 @@ static void read_link(struct reading *r, const struct elements *e, struct file_l
     if (same >= 0 && &e->links[same] != link) {
         fault(r, link->at, NULL, "is given twice, first in line %lu; names must differ", e->links[same].at->line);
     }
-    read_inertial(r, link);
-    shapes_read(r, link);
+    read_inertial(r, e, link);
+    if (!touches_nothing(e, link->name)) {
+        shapes_read(r, link);
+    }
     tell_unknown(r, link->at, known);
 }
 
@@ -138,8 +185,8 @@ static void read_limit(struct reading *r, struct file_joint *joint) {
     }
     read_numbers(r, limit, "lower", false, &joint->lower, 1);
     read_numbers(r, limit, "upper", false, &joint->upper, 1);
-    read_not_negative(r, limit, "effort", false, HUGE_VAL, &joint->effort);
-    read_not_negative(r, limit, "velocity", false, HUGE_VAL, &joint->velocity);
+    read_numbers(r, limit, "effort", false, &joint->effort, 1);
+    read_numbers(r, limit, "velocity", false, &joint->velocity, 1);
 }
 
 static const char *read_end(struct reading *r, const struct xml_element *joint, const char *end) {

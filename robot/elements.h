@@ -20,9 +20,9 @@ struct file_link {
     const char *name;
     double mass; /* 0: a frame without mass */
     frame inertial;
-    matrix inertia;                       /* about the centre of mass, axes of `inertial` */
-    const struct xml_element *inertia_at; /* or NULL */
-    struct file_shape *shapes;            /* [num_seen] those that touch, then those that are only seen */
+    matrix inertia;                                 /* about the centre of mass, axes of `inertial` */
+    const struct xml_element *mass_at, *inertia_at; /* or NULL */
+    struct file_shape *shapes;                      /* [num_seen] those that touch, then those that are only seen */
     int num_shapes, num_seen;
 
     /* as found by tree_resolve and merge */

@@ -72,7 +72,7 @@ static void read_belt(struct reading *r, const struct xml_element *at, struct fi
     }
 }
 
-/* A crawler that the file has no joint for, fixed to a link whose y points to the left. */
+/* A crawler that the file has no joint for, fixed to a link. */
 static void read_free_crawler(struct reading *r, struct elements *e, const struct xml_element *at,
                               struct file_actuator *c) {
     static const char *const known[] = {"link",   "xyz",      "length",  "width", "radius",
@@ -236,9 +236,10 @@ static void check_counts(struct reading *r, const struct elements *e) {
 
 /* What may stand in <limphome>, with the attributes of what is read elsewhere. */
 static void check_names(struct reading *r, const struct xml_element *extension) {
-    static const char *const names[] = {"crawler", "arm", "tip", "support", "hold", "no_contact"};
+    static const char *const names[] = {"crawler", "arm", "tip", "support", "hold", "inertial", "no_contact"};
     static const char *const own[] = {"self_contact", NULL}, *const hold[] = {"joint", "home", NULL},
-                             *const no_contact[] = {"link1", "link2", NULL};
+                             *const no_contact[] = {"link1", "link2", NULL},
+                             *const inertial[] = {"link", "mass", "xyz", "size", NULL};
     refuse_unknown_attributes(r, extension, own);
     for (const struct xml_element *at = extension->first; at != NULL; at = at->next) {
         bool found = false;
@@ -247,12 +248,23 @@ static void check_names(struct reading *r, const struct xml_element *extension) 
         }
         if (!found) {
             fault(r, at, NULL,
-                  "unknown inside <limphome>; known are <crawler>, <arm>, <tip>, <support>, <hold>, <no_contact>");
+                  "unknown inside <limphome>; known are <crawler>, <arm>, <tip>, <support>, <hold>, <inertial>, "
+                  "<no_contact>");
         } else if (strcmp(at->name, "hold") == 0) {
             refuse_unknown_attributes(r, at, hold);
         } else if (strcmp(at->name, "no_contact") == 0) {
             refuse_unknown_attributes(r, at, no_contact);
+        } else if (strcmp(at->name, "inertial") == 0) {
+            refuse_unknown_attributes(r, at, inertial);
         }
+    }
+}
+
+/* What it gives has been taken for that of the link; here only whether there is such a link, and one of it. */
+static void check_inertial(struct reading *r, struct elements *e, const struct xml_element *at) {
+    const int link = read_known(r, at, "link", e, find_link);
+    if (link >= 0 && e->links[link].inertia_at != at) {
+        fault(r, at, "link", "is given twice, first in line %lu; once is allowed", e->links[link].inertia_at->line);
     }
 }
 
@@ -267,6 +279,7 @@ void extension_read(struct reading *r, struct elements *e) {
     read_each(r, e, "arm", read_arm);
     read_each(r, e, "tip", read_support);
     read_each(r, e, "support", read_support);
+    read_each(r, e, "inertial", check_inertial);
     check_counts(r, e);
     hold_joints(r, e);
 }

@@ -4,7 +4,8 @@
 
 #include "elements.h"
 
-/* Faults where none has; notices where a link has not but makes no difference to the body it is part of. Sprockets may
+/* Faults where none has; notices where a link has not but makes no difference to the body it is part of, as the
+ * placeholders that tools leave in small parts. Sprockets may
  * have any: theirs is that of a drive train, seen through its gear. */
 void inertia_check(struct reading *r, const struct elements *e, const robot_description *robot);
 

@@ -61,6 +61,17 @@ static const char *after(const char *name, const char *scheme) {
     return strncmp(name, scheme, length) == 0 ? name + length : NULL;
 }
 
+/* A path of another machine: its end may be found as a package's, the longest first. */
+static bool is_tail(const char *folder, const char *packages, const char *name, char path[PATH_LENGTH]) {
+    for (const char *slash = strchr(name, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
+        const char *tail = slash + 1;
+        if (strchr(tail, '/') != NULL && (is_in_packages(packages, tail, path) || is_above(folder, tail, path))) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool find(const char *folder, const char *packages, const char *name, const char *copy, char path[PATH_LENGTH]) {
     if (snprintf(path, PATH_LENGTH, "%s/%s", folder, copy) < PATH_LENGTH && is_file(path)) {
         return true;
@@ -76,7 +87,7 @@ static bool find(const char *folder, const char *packages, const char *name, con
     plain = plain == NULL ? name : plain;
     const int length = plain[0] == '/' ? snprintf(path, PATH_LENGTH, "%s", plain)
                                        : snprintf(path, PATH_LENGTH, "%s/%s", folder, plain);
-    return length < PATH_LENGTH && is_file(path);
+    return (length < PATH_LENGTH && is_file(path)) || is_tail(folder, packages, plain, path);
 }
 
 const char *mesh_copy(struct reading *r, const char *name) {

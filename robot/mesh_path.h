@@ -9,8 +9,9 @@
 const char *mesh_copy(struct reading *r, const char *name);
 
 /* Path of the file that `name` stands for, or NULL if there is none: package:// and model:// names are looked for in
- * the folders of r->packages, then in those above the robot file; file:// and plain names from the robot file's folder.
- */
+ * the folders of r->packages, then in those above the robot file; file:// and plain names from the robot file's folder
+ * or, where there is none, by their ends as if these were names in packages, so that paths of another machine are
+ * found. */
 const char *mesh_path(struct reading *r, const char *name);
 
 #endif

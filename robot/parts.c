@@ -6,28 +6,34 @@ static bool is_far(const double point[3]) {
     return vector_norm(vector_of(point)) > MOST_METRES;
 }
 
-/* The frame that a crawler's middle is given in, and its sprocket's axis there; left where it has no joint. */
-static const struct file_link *carrier(const struct elements *e, const struct file_actuator *from, vector *axis) {
-    if (from->joint < 0) {
-        *axis = (vector){0, 1, 0};
-        return &e->links[from->link];
+/* The link in whose frame a crawler's middle is given. */
+static const struct file_link *carrier(const struct elements *e, const struct file_actuator *from) {
+    return &e->links[from->joint < 0 ? from->link : e->joints[from->joint].parent];
+}
+
+/* Of a sprocket, in the frame of the base; of one that has no joint: from the right crawler to the left one. */
+static vector sprocket_axis(const struct elements *e, const struct file_actuator *from,
+                            const robot_crawler crawlers[ROBOT_CRAWLERS]) {
+    if (from->joint >= 0) {
+        const struct file_joint *joint = &e->joints[from->joint];
+        const vector axis = matrix_apply(&joint->origin.axes, joint->axis);
+        return matrix_apply(&carrier(e, from)->pose.axes, axis);
     }
-    const struct file_joint *joint = &e->joints[from->joint];
-    *axis = matrix_apply(&joint->origin.axes, joint->axis);
-    return &e->links[joint->parent];
+    const double x = crawlers[0].centre[0] - crawlers[1].centre[0], y = crawlers[0].centre[1] - crawlers[1].centre[1];
+    return x == 0 && y == 0 ? (vector){0, 1, 0} : vector_unit((vector){x, y, 0});
 }
 
 void parts_crawlers(const struct elements *e, robot_description *robot) {
     for (int c = 0; c < ROBOT_CRAWLERS; c++) {
         const struct file_actuator *from = &e->actuators[c];
-        vector axis;
-        const struct file_link *link = carrier(e, from, &axis);
         robot_crawler *crawler = &robot->crawlers[c];
-        vector_store(frame_apply(&link->pose, from->centre), crawler->centre);
-        vector_store(matrix_apply(&link->pose.axes, axis), crawler->axis);
+        vector_store(frame_apply(&carrier(e, from)->pose, from->centre), crawler->centre);
         crawler->length = from->length;
         crawler->width = from->width;
         crawler->radius = from->radius;
+    }
+    for (int c = 0; c < ROBOT_CRAWLERS; c++) {
+        vector_store(sprocket_axis(e, &e->actuators[c], robot->crawlers), robot->crawlers[c].axis);
     }
 }
 

@@ -1,6 +1,7 @@
 #include "sprocket.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* Share of the base's mass that becomes the body of a sprocket. */
 #define SHARE 0.001
@@ -9,16 +10,13 @@
  * robots in config/ is 3 to 13 %. */
 #define CARRIED 0.05
 
-static void make_body(const struct elements *e, int index, double mass, double inertia, robot_body *body) {
+static void make_body(const robot_crawler *crawler, int index, double mass, double inertia, robot_body *body) {
     static const char *const names[ROBOT_CRAWLERS] = {"left_sprocket", "right_sprocket"};
-    const struct file_actuator *from = &e->actuators[index];
-    const struct file_link *link = &e->links[from->link];
     snprintf(body->name, sizeof body->name, "%s", names[index]);
-    const frame at = {from->centre, matrix_identity()};
-    const frame pose = frame_multiply(&link->pose, &at);
     body->parent = 0;
-    body->joint = frame_pose(&pose);
-    vector_store((vector){0, 1, 0}, body->axis);
+    memcpy(body->joint.position, crawler->centre, sizeof body->joint.position);
+    body->joint.rotation[0] = 1;
+    memcpy(body->axis, crawler->axis, sizeof body->axis);
     body->mass = mass;
     body->inertia[0][0] = body->inertia[2][2] = inertia / 2;
     body->inertia[1][1] = inertia;
@@ -43,7 +41,7 @@ void sprockets_make(struct reading *r, const struct elements *e, robot_descripti
                    "change",
                    inertia);
         }
-        make_body(e, c, mass, inertia, &robot->bodies[c + 1]);
+        make_body(&robot->crawlers[c], c, mass, inertia, &robot->bodies[c + 1]);
         robot->bodies[0].mass -= mass;
     }
 }

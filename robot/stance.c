@@ -60,8 +60,7 @@ static bool check_pair(struct reading *r, const struct elements *e, vector left,
     }
     /* the axes tell what is forward; against them, left and right have changed places */
     const vector sum = vector_add(vector_of(c[0].axis), vector_of(c[1].axis));
-    const bool own = e->actuators[0].joint < 0 || e->actuators[1].joint < 0;
-    if ((own || left.y < -0.5 * track) && vector_dot(sum, left) < track) {
+    if (left.y < -0.5 * track && vector_dot(sum, left) < track) {
         fault(r, crawler_at(e, 0), "xyz", "lies to the right of the other crawler; the left one must come first");
         return false;
     }

@@ -10,6 +10,9 @@
 /* Shapes may reach below the ground by this share of the crawlers' radius: what belts sink in, and rounding. */
 #define BELOW_GROUND 0.005
 
+/* What is fixed to the base must be as far above the ground [m]: belts sink in by half of it, more at one end. */
+#define CLEARANCE 0.002
+
 /* A shape on its way into the description. */
 struct candidate {
     const struct xml_element *at;
@@ -99,8 +102,9 @@ static bool belongs_to_belt(struct reading *r, const struct candidate *c, const 
         fault(r, c->at, NULL,
               "turns with the sprocket of a crawler and reaches beyond the crawler (length %g, width %g, radius %g m); "
               "must "
-              "lie within it, be round about the sprocket's axis, or be on another link",
-              robot->crawlers[body - 1].length, robot->crawlers[body - 1].width, robot->crawlers[body - 1].radius);
+              "lie within it, be round about the sprocket's axis, or be left out by <no_contact link1=\"%s\"/>",
+              robot->crawlers[body - 1].length, robot->crawlers[body - 1].width, robot->crawlers[body - 1].radius,
+              c->shape.name);
     }
     return false;
 }
@@ -109,15 +113,21 @@ static double mean_radius(const robot_description *robot) {
     return (robot->crawlers[0].radius + robot->crawlers[1].radius) / 2;
 }
 
-/* The robot is to stand on its crawlers when it is put down. */
+/* The robot is to stand on its crawlers when it is put down; the arm may then rest on the ground. */
 static void check_above_ground(struct reading *r, const struct candidate *c, const frame *pose,
                                const robot_description *robot) {
     const double lowest = pose->origin.z - reach(&c->shape, pose, (vector){0, 0, 1});
+    const bool is_arm = c->shape.body > ROBOT_CRAWLERS;
     if (lowest < -BELOW_GROUND * mean_radius(robot)) {
         fault(r, c->at, NULL,
               "reaches %.3g m below the ground on which the crawlers stand%s: the robot would stand on it, not on its "
-              "crawlers",
-              -lowest, c->shape.body == 0 || is_sprocket(c->shape.body) ? "" : " (in the initial pose, home)");
+              "crawlers; must not, or be left out by <no_contact link1=\"%s\"/>",
+              -lowest, is_arm ? " (in the initial pose, home)" : "", c->shape.name);
+    } else if (!is_arm && lowest < CLEARANCE) {
+        fault(r, c->at, NULL,
+              "reaches down to %g m above the ground on which the crawlers stand: part of the weight would rest on it; "
+              "must end %g m above it, lie within a crawler, or be left out by <no_contact link1=\"%s\"/>",
+              rint(lowest * 1e5) / 1e5 + 0.0, CLEARANCE, c->shape.name);
     }
 }
 

@@ -40,17 +40,16 @@ static void tell_loop(struct reading *r, const struct elements *e, int link) {
     for (int steps = 0; steps < e->num_links; steps++) {
         link = e->joints[e->links[link].joint].parent;
     }
-    char text[400] = "";
+    char text[400];
     const int start = link;
+    size_t length = (size_t)snprintf(text, sizeof text, "%.60s", e->links[start].name);
     do {
-        const size_t length = strlen(text);
-        if (length < sizeof text - 100) {
-            snprintf(text + length, sizeof text - length, "%.60s on ", e->links[link].name);
-        }
         link = e->joints[e->links[link].joint].parent;
+        if (length < sizeof text - 100) {
+            length += (size_t)snprintf(text + length, sizeof text - length, "%s%.60s", " on ", e->links[link].name);
+        }
     } while (link != start);
-    fault(r, e->joints[e->links[start].joint].at, NULL, "closes a loop: %s%.60s; links must be a tree", text,
-          e->links[start].name);
+    fault(r, e->joints[e->links[start].joint].at, NULL, "closes a loop: %s; links must be a tree", text);
 }
 
 bool tree_resolve(struct reading *r, struct elements *e, int order[MOST_LINKS]) {

@@ -7,7 +7,6 @@
 #include "limphome/body/kinematics.h"
 #include "limphome/body/rest.h"
 #include "limphome/body/stability.h"
-#include "limphome/task/task.h"
 #include "sweep.h"
 
 #define BISECTIONS 40

@@ -136,14 +136,15 @@ def existing(path, *needed):
     return folder
 
 
-def ask(program, *options):
-    """What a program prints that ends at once. Raises InputError with its words where it refuses what it is given."""
+def ask(program, *options, tell=True):
+    """What a program prints that ends at once; with `tell`, its notices are told. Raises InputError with its words
+    where it refuses what it is given."""
     command = [paths.program(program), *map(str, options)]
     # file names need not be UTF-8
     result = subprocess.run(command, capture_output=True, text=True, errors="surrogateescape")
     if result.returncode != 0:
         raise InputError(result.stderr.strip())
-    if result.stderr:
+    if result.stderr and tell:
         print(result.stderr, end="", file=sys.stderr)
     return result.stdout
 
@@ -182,7 +183,7 @@ def create(out, config, robot, assignments, controller_options=(), anew=False, r
     named = ["--robot", robot, *(("--packages", packages) if packages else ())]
     options = [*setting_options(config, assignments), *named, "--check"]
     ask("controller", *options, *controller_options)
-    ask("simulator", *options)
+    ask("simulator", *options, tell=False)  # of the same robot, so the same notices
     meshes = dict(line.split("\t") for line in ask("controller", *named, "--list-meshes").splitlines())
     if out is None:
         seed = parse_settings(resolved, config)["learning"]["seed"]

@@ -11,7 +11,6 @@ namespace {
 // Points that differ in height by a millimetre could tip the robot by pulling against each other, hard and to no avail.
 // Effects this small beside those of all impulses do not count [-].
 constexpr double negligible = 1e-5;
-constexpr int refinements = 2;  // of the solution, so that all other effects keep their size
 
 // Sets the reliefs of the first `count`: what leads them to their share.
 template <int dofs>
@@ -29,11 +28,9 @@ void find_reliefs(std::vector<Grip> &grips, std::size_t count) {
     // above 0 even if nothing moves
     bounded.diagonal().array() += negligible * mobility.trace() + std::numeric_limits<double>::min();
     const Eigen::LLT<Square> inverse(bounded);
-    Vector pull = inverse.solve(wanted);  // of all points per limit, seen from each velocity
-    for (int i = 0; i < refinements; i++) {
-        const Vector missing = wanted - mobility.lazyProduct(pull);
-        pull += inverse.solve(missing);
-    }
+    Vector pull = inverse.solve(wanted);                         // of all points per limit, seen from each velocity
+    const Vector missing = wanted - mobility.lazyProduct(pull);  // of the effects that do count
+    pull += inverse.solve(missing);
     for (std::size_t i = 0; i < count; i++) {
         Grip &grip = grips[i];
         grip.relief = grip.limit * grip.response.template topRows<dofs>().transpose().lazyProduct(pull) - grip.impulse;

@@ -209,6 +209,12 @@ def test_crawlers_without_joints_drive(tmp_path):
     assert drive(robot)[-1][1] == pytest.approx(1.2, abs=0.03)
 
 
+def test_notices_are_told_once(tmp_path):
+    robot = write(tmp_path, *bolt(parent="arm", type="prismatic"))
+    short = ["--set", "learning.episodes=1", "--set", "episode.step_limit=5"]
+    assert train(tmp_path / "run", "--robot", robot, *short).stderr.count("moves, but is no actuator") == 1
+
+
 def test_a_run_folder_has_the_meshes_of_its_robot(tmp_path):
     package = tmp_path / "packages" / "bot"
     package.mkdir(parents=True)

@@ -101,6 +101,8 @@ static const struct {
     {"src/bot/meshes/slab.obj", obj, "filename='file://../meshes/slab.obj'"},
     {"src/bot/meshes/slab.obj", "v 0 0 0\nv 400 0 100\nv 0 200 0\nf 1 2 3\n",
      "filename='../meshes/slab.obj' scale='0.001 0.001 0.001'"},
+    {"src/bot/meshes/slab.obj", obj, "filename='file:///home/somebody/ws/src/bot/meshes/slab.obj'"},
+    {"src/bot/meshes/slab.obj", obj, "filename='/opt/ros/share/bot/meshes/slab.obj'"},
     {"src/bot/urdf/robot_meshes/package___gone_a_slab.obj", obj, "filename='package://gone/a/slab.obj'"},
 };
 

@@ -160,6 +160,8 @@ static const struct {
     {"ixx=\"30\"", "ixx=\"300\"", "principal moments 40, 40, 300 kg m^2, which no body has"},
     {"ixx=\"30\" iyy=\"40\" izz=\"40\"", "ixx=\"3e4\" iyy=\"4e4\" izz=\"4e4\"",
      "is that of a mass 10.7 m from its centre"},
+    {"ixx=\"30\" iyy=\"40\" izz=\"40\"", "ixx=\"3e-3\" iyy=\"4e-3\" izz=\"4e-3\"",
+     "is that of a mass within 0.00338 m of its centre, but the link reaches"},
     {"<mass value=\"350\"/>", "<mass value=\"350000\"/>", "<mass value=\"350000\">: would be"},
     {"ixx=\"30\" iyy=\"40\" izz=\"40\"", "ixx=\"0\" iyy=\"0\" izz=\"0\"",
      "<link name=\"upper_body\">: has, with what is fixed"},

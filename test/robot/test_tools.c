@@ -261,6 +261,13 @@ static const struct {
     {"<limphome>", CAMERA("continuous", "<mimic joint='x'/>") "<limphome>",
      "<mimic joint=\"x\">: there is no such joint"},
     {"<limphome>", "<limphome><no_contact link1='base' link2='x'/>", "<no_contact link2=\"x\">: there is no such link"},
+    {"<limphome>", "<limphome><inertial link='x' mass='1' size='1 1 1'/>",
+     "<inertial link=\"x\">: there is no such link"},
+    {"<limphome>", "<limphome><inertial link='boom' mass='1' size='1 0 1'/>",
+     "<inertial size=\"1 0 1\">: must be three"},
+    {"<limphome>",
+     "<limphome><inertial link='boom' mass='10' size='1 1 1'/><inertial link='boom' mass='10' size='1 1 1'/>",
+     "<inertial link=\"boom\">: is given twice"},
     {"<limphome>", "<limphome self_contact='no'>", "<limphome self_contact=\"no\">: must be true or false"},
     {"<crawler joint=\"left_crawler\"", "<crawler link=\"arm\" effort=\"1\" velocity=\"1\"",
      "moves with the arm or a sprocket"},
@@ -275,11 +282,46 @@ START_TEST(bad_extensions_are_refused) {
 }
 END_TEST
 
-START_TEST(left_and_right_crawler_without_joints_are_told_apart) {
+/* Without a joint to tell it, what is forward follows from left and right alone. */
+START_TEST(crawlers_without_joints_tell_what_is_forward) {
     begin_without_sprockets("");
     edited_replace(&e, "xyz=\"0 0.475 0.18\" length", "xyz=\"0 -1.475 0.18\" length");
     edited_read(&e);
-    edited_expect_fault(&e, "the left one must come first");
+    edited_expect_notice(&e, "turned by -180 degrees");
+    ck_assert_double_eq_tol(e.robot.crawlers[0].centre[1], 0.5, 1e-12);
+    ck_assert_double_eq_tol(e.robot.bodies[1].joint.position[1], 0.5, 1e-12);
+    ck_assert_double_eq_tol(e.robot.bodies[1].axis[1], 1, 1e-12);
+    edited_end(&e);
+}
+END_TEST
+
+/* In place of what stands in the link, good or bad. */
+START_TEST(the_extension_may_give_a_link_its_inertia) {
+    edited_begin(&e);
+    edited_replace(&e, "<mass value=\"60\"/>", "<mass value=\"heavy\"/>");
+    edited_replace(&e, "<limphome>", "<limphome><inertial link='boom' mass='12' xyz='0.5 0 0' size='1 0.2 0.1'/>");
+    edited_read(&e);
+    edited_expect_good(&e);
+    const robot_body *boom = &e.robot.bodies[4];
+    ck_assert_double_eq_tol(boom->mass, 12, 1e-12);
+    ck_assert_double_eq_tol(boom->centre[0], 0.5, 1e-12);
+    ck_assert_double_eq_tol(boom->inertia[0][0], 0.04 + 0.01, 1e-12);
+    ck_assert_double_eq_tol(boom->inertia[1][1], 1 + 0.01, 1e-12);
+    ck_assert_double_eq_tol(boom->inertia[2][2], 1 + 0.04, 1e-12);
+    edited_end(&e);
+}
+END_TEST
+
+/* Its shapes and their meshes are not even looked at. */
+START_TEST(a_link_may_touch_nothing) {
+    edited_begin(&e);
+    edited_replace(&e, "<sphere radius=\"0.08\"/>", "<mesh filename='none.stl'/>");
+    edited_replace(&e, "<limphome>", "<limphome><no_contact link1='boom'/>");
+    edited_read(&e);
+    edited_expect_good(&e);
+    ck_assert_int_eq(e.report.num_notices, 0);
+    ck_assert_int_eq(e.robot.num_shapes, 2);
+    ck_assert(e.robot.may_meet[0][4]);
     edited_end(&e);
 }
 END_TEST
@@ -313,6 +355,35 @@ START_TEST(a_small_part_with_an_inertia_that_no_body_has_is_told_of) {
 }
 END_TEST
 
+/* Placeholders that tools leave in small parts. */
+START_TEST(a_small_part_may_have_any_inertia) {
+    read_edited("<limphome>",
+                "<link name='camera'><inertial><mass value='0.03'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' "
+                "iyz='0'/></inertial><collision><geometry><sphere radius='0.02'/></geometry></collision></link><joint "
+                "name='c' type='fixed'><parent link='upper_body'/><child link='camera'/></joint><limphome>");
+    edited_expect_notice(&e,
+                         "is that of a mass 5.77 m from its centre, but nothing of the link is farther than 0.02 m");
+    edited_end(&e);
+    read_edited("<limphome>",
+                "<link name='camera'><inertial><mass value='0.03'/><inertia ixx='9' iyy='9' izz='9' ixy='0' ixz='0' "
+                "iyz='0'/></inertial><collision><geometry><sphere radius='0.02'/></geometry></collision></link><joint "
+                "name='c' type='fixed'><parent link='upper_body'/><child link='camera'/></joint><limphome>");
+    edited_expect_fault(&e, "is that of a mass 17.3 m from its centre");
+    edited_end(&e);
+}
+END_TEST
+
+/* Rotors seen through their gears. */
+START_TEST(drive_trains_may_have_any_inertia) {
+    read_edited("<mass value=\"1\"/><inertia ixx=\"2\" iyy=\"4\" izz=\"2\"",
+                "<mass value=\"1\"/><inertia ixx=\"0.01\" iyy=\"4\" izz=\"0.01\"");
+    edited_expect_good(&e);
+    ck_assert_int_eq(e.report.num_notices, 0);
+    ck_assert_double_eq(e.robot.bodies[1].inertia[1][1], 4);
+    edited_end(&e);
+}
+END_TEST
+
 START_TEST(unknown_elements_are_told_of) {
     read_edited("<inertial>", "<inertail/><inertial>");
     edited_expect_notice(&e, ":12: <link name=\"base\"> <inertail>: is no element of URDF");
@@ -330,9 +401,13 @@ int main(void) {
     tcase_add_test(cases, a_crawler_may_do_without_a_joint);
     tcase_add_loop_test(cases, what_moves_but_is_no_actuator_is_held, 0, (int)(sizeof holds / sizeof holds[0]));
     tcase_add_loop_test(cases, bad_extensions_are_refused, 0, (int)(sizeof refusals / sizeof refusals[0]));
-    tcase_add_test(cases, left_and_right_crawler_without_joints_are_told_apart);
+    tcase_add_test(cases, crawlers_without_joints_tell_what_is_forward);
+    tcase_add_test(cases, the_extension_may_give_a_link_its_inertia);
+    tcase_add_test(cases, a_link_may_touch_nothing);
     tcase_add_test(cases, contacts_may_be_excepted);
     tcase_add_test(cases, a_small_part_with_an_inertia_that_no_body_has_is_told_of);
+    tcase_add_test(cases, a_small_part_may_have_any_inertia);
+    tcase_add_test(cases, drive_trains_may_have_any_inertia);
     tcase_add_test(cases, unknown_elements_are_told_of);
     return run_suite("tools", cases);
 }

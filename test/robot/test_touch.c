@@ -55,6 +55,8 @@ static const struct {
     {"base", SHAPE("xyz='0 0 0.1' rpy='0 0.5 0'", "<box size='1 0.5 0.01'/>"), "reaches 0.144 m below the ground"},
     {"base", SHAPE("xyz='0 0 0.4' rpy='0 0.5 0'", "<cylinder radius='0.2' length='1'/>"),
      "reaches 0.135 m below the ground"},
+    {"base", SHAPE("xyz='0 0.475 0.18'", "<box size='1.6 0.36 0.36'/>"),
+     "reaches down to 0 m above the ground on which"},
     {"arm", SHAPE("xyz='0.8 0 0'", "<sphere radius='1'/>"),
      "below the ground on which the crawlers stand (in the initial pose, home)"},
 };

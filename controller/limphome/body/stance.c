@@ -20,8 +20,8 @@ static float height_at(lh_vec3 p, const lh_vec3 corner[3], float least) {
     float b = area(p, corner[2], corner[0]);
     float c = area(p, corner[0], corner[1]);
     float whole = a + b + c;
-    bool over = (a >= 0.0f && b >= 0.0f && c >= 0.0f) || (a <= 0.0f && b <= 0.0f && c <= 0.0f);
-    if (!over || (whole < least && whole > -least)) {
+    float turn = whole < 0.0f ? -1.0f : 1.0f;
+    if (turn * a < 0.0f || turn * b < 0.0f || turn * c < 0.0f || turn * whole < least) {
         return FLT_MAX;
     }
     return (a * corner[0].z + b * corner[1].z + c * corner[2].z) / whole;

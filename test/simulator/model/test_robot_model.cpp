@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <fstream>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
 #include "laboratory.h"
@@ -39,6 +42,97 @@ TEST(RobotModel, HasItsShapes) {
     EXPECT_EQ(model.bodies[5].shapes[0].half_size.x(), 0.08);
     EXPECT_TRUE(model.may_meet[0][5]);
     EXPECT_FALSE(model.may_meet[4][5]);
+}
+
+// Each link as eight points that have its mass, centre and inertia, carried along by Eigen's frames; then the moments
+// of all points together, about their common centre.
+struct Points {
+    std::vector<Eigen::Vector3d> at;
+    double mass = 0;  // of each
+
+    // A box of even density has its points at 1/sqrt(3) of its half size.
+    Points(double total, const Eigen::Vector3d &half, const Eigen::Isometry3d &frame) : mass(total / 8) {
+        for (int corner = 0; corner < 8; corner++) {
+            const Eigen::Vector3d sign(2 * (corner & 1) - 1, 2 * (corner >> 1 & 1) - 1, 2 * (corner >> 2) - 1);
+            at.emplace_back(frame * (sign.cwiseProduct(half) / std::sqrt(3.0)));
+        }
+    }
+};
+
+Eigen::Isometry3d frame_of(const Eigen::Vector3d &xyz, const Eigen::Vector3d &rpy) {
+    using Eigen::AngleAxisd, Eigen::Vector3d;
+    return Eigen::Translation3d(xyz) * AngleAxisd(rpy.z(), Vector3d::UnitZ()) * AngleAxisd(rpy.y(), Vector3d::UnitY()) *
+           AngleAxisd(rpy.x(), Vector3d::UnitX());
+}
+
+std::string text_of(const Eigen::Vector3d &v) {
+    std::ostringstream text;
+    text << v.x() << ' ' << v.y() << ' ' << v.z();
+    return text.str();
+}
+
+// A link and its joint, the inertia that of a box.
+std::string link_text(const std::string &name, const std::string &parent, double mass, const Eigen::Vector3d &half,
+                      const Eigen::Vector3d *joint, const Eigen::Vector3d *inertial) {
+    const Eigen::Vector3d squares = half.cwiseProduct(half) * mass / 3;
+    std::ostringstream text;
+    text.precision(17);
+    text << "<link name='" << name << "'><inertial><origin xyz='" << text_of(inertial[0]) << "' rpy='"
+         << text_of(inertial[1]) << "'/><mass value='" << mass << "'/><inertia ixx='" << squares.y() + squares.z()
+         << "' iyy='" << squares.x() + squares.z() << "' izz='" << squares.x() + squares.y()
+         << "' ixy='0' ixz='0' iyz='0'/></inertial></link><joint name='" << name << "' type='fixed'><parent link='"
+         << parent << "'/><child link='" << name << "'/><origin xyz='" << text_of(joint[0]) << "' rpy='"
+         << text_of(joint[1]) << "'/></joint>";
+    return text.str();
+}
+
+TEST(RobotModel, MergedBodiesHaveTheMomentsOfTheirLinks) {
+    const Eigen::Vector3d half[3] = {{0.1, 0.2, 0.3}, {0.3, 0.1, 0.05}, {0.02, 0.4, 0.1}};
+    const Eigen::Vector3d joint[3][2] = {
+        {{0.2, -0.1, 0.5}, {0.3, -0.7, 1.1}}, {{-0.3, 0.2, 0.1}, {1.3, 0.4, -2}}, {{0.1, 0.1, 0.4}, {-0.2, 0.9, 0.6}}};
+    const Eigen::Vector3d inertial[3][2] = {
+        {{0.05, 0, 0.1}, {0.5, 0.2, -0.4}}, {{0, 0.1, 0}, {-1, 0.3, 0.8}}, {{0.1, 0.2, -0.1}, {0.7, -0.6, 2.5}}};
+    const double mass[3] = {20, 30, 5};
+    // two on the arm one after the other, the third beside the first
+    std::string links;
+    std::vector<Points> points;
+    const Eigen::Isometry3d first = frame_of(joint[0][0], joint[0][1]);
+    for (int i = 0; i < 3; i++) {
+        const std::string parent = i == 1 ? "part0" : "arm";
+        links += link_text("part" + std::to_string(i), parent, mass[i], half[i], joint[i], inertial[i]);
+        const Eigen::Isometry3d frame =
+            (i == 1 ? first : Eigen::Isometry3d::Identity()) * frame_of(joint[i][0], joint[i][1]);
+        points.emplace_back(mass[i], half[i], frame * frame_of(inertial[i][0], inertial[i][1]));
+    }
+    std::ifstream file(laboratory::robot_file());
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    text.insert(text.find("<limphome>"), links);
+    const std::string path = testing::TempDir() + "limphome_merged.urdf";
+    std::ofstream(path) << text;
+    const Body merged = laboratory::read_robot(path).bodies[5];
+    std::remove(path.c_str());
+
+    // the arm's own link: its inertia is that of a point with this added
+    Eigen::Matrix3d inertia = Eigen::Vector3d(0.15, 1.9, 1.9).asDiagonal();
+    points.emplace_back(35, Eigen::Vector3d::Zero(), Eigen::Isometry3d(Eigen::Translation3d(0.4, 0, 0)));
+    double total = 0;
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (const Points &p : points) {
+        for (const Eigen::Vector3d &at : p.at) {
+            total += p.mass;
+            centre += p.mass * at;
+        }
+    }
+    centre /= total;
+    for (const Points &p : points) {
+        for (const Eigen::Vector3d &at : p.at) {
+            const Eigen::Vector3d r = at - centre;
+            inertia += p.mass * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
+        }
+    }
+    EXPECT_NEAR(merged.mass, total, 1e-9);
+    EXPECT_LT((merged.centre - centre).norm(), 1e-12);
+    EXPECT_LT((merged.inertia - inertia).norm(), 1e-10);
 }
 
 TEST(RobotModel, TurnedFramesAreTurned) {

@@ -12,13 +12,23 @@ Written by `scripts/validate --report docs/validation.md`; do not edit. The simu
 References come from closed forms, or from the URDF alone by quasi-static analysis: the loads on the points of contact
 follow from the lever rule (on equal springs under a stiff body), and the motion is the one that loses least power to
 friction, the minimum of sum(mu N |slip|) over forward and sideways speed, yaw rate and the speeds of belts that turn
-freely. They share no code with the simulator. Cases run on the real simulation, driven by `limphome-instrument`.
+freely; on a slope less the power of the weight. They share no code with the simulator. Cases run on the real simulation, driven by `limphome-instrument`.
 
 {quantities}
 
-Notes. With both drives sound and driving straight, the drives may hold each other in a grip, one pushing forward, the
-other back: Coulomb's law with stiff sticking leaves that open, and it has no effect on the motion; the torque of both
-together is determined. What energy rises is the error of integrating the freely swinging arm; it goes with the time step.
+Notes.
+
+- Torques: where belts stick, Coulomb's law leaves open how their points share what they do. They share it by load, the
+  least sum(|force|^2 / (mu N)), in every step; nothing then pulls against anything, whatever went before. It costs no
+  creep. Standing after a turn is measured once the integral part of the drives is through: for some 3 s it lets the belts
+  creep, and as long as anything slips, friction is mu N in full, and so is the torque.
+- Pull against slip is a step, as Coulomb has it: no slip up to mu m g, and mu m g at any slip. Soil and rubber have a curve.
+  Belts and bearings have no losses, so motion resistance on level ground is none; turning has that of the skid.
+- Turning radius: without skidding the circle would be far tighter (0.475 m with one belt at rest).
+- Steps and gaps: at each stage two places carry and the belts pull with what friction bears; forces and moments balance.
+  The simulated robot gets a little higher, the less so the slower it goes. Swinging at 20 degrees, faster than friction
+  bears, it does slip: 19 mm in 3 swings.
+- What energy rises is the error of integrating the freely swinging arm; it goes with the time step.
 
 ## Time step and iterations
 
