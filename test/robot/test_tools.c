@@ -323,6 +323,7 @@ START_TEST(a_link_may_touch_nothing) {
     for (int i = 0; i < e.robot.num_shapes; i++) {
         ck_assert_int_ne(e.robot.shapes[i].body, 4);
     }
+    ck_assert(e.robot.may_meet[0][4]);
     edited_end(&e);
 }
 END_TEST
