@@ -320,7 +320,7 @@ START_TEST(a_link_may_touch_nothing) {
     edited_read(&e);
     edited_expect_good(&e);
     ck_assert_int_eq(e.report.num_notices, 0);
-    ck_assert_int_eq(e.robot.num_shapes, 2);
+    ck_assert_int_eq(e.robot.num_shapes, 4);
     ck_assert(e.robot.may_meet[0][4]);
     edited_end(&e);
 }

@@ -112,11 +112,11 @@ START_TEST(there_is_room_for_the_largest_shapes) {
     }
     strcat(shapes, "</link>");
     read_with("base", shapes);
-    edited_expect_notice(&e, "has 102 shapes that may touch; the 39 smallest, of at most 0.098 m, are left out");
+    edited_expect_notice(&e, "has 105 shapes that may touch; the 42 smallest, of at most 0.104 m, are left out");
     ck_assert_int_eq(e.robot.num_shapes, ROBOT_MAX_SHAPES);
     ck_assert_str_eq(e.robot.shapes[0].name, "arm"); /* the tip */
     for (int i = 1; i < e.robot.num_shapes; i++) {
-        ck_assert_double_ge(e.robot.shapes[i].half_size[0], 0.0489);
+        ck_assert_double_ge(e.robot.shapes[i].half_size[0], 0.0519);
     }
     edited_end(&e);
 }
