@@ -15,7 +15,7 @@ def options(packages):
 def ask(file, packages=None):
     """(exit code, what is told of the file)"""
     command = [paths.program("describe"), "--json", *options(packages), file]
-    result = subprocess.run(command, capture_output=True, text=True)
+    result = subprocess.run(command, capture_output=True, text=True, errors="surrogateescape")
     if not result.stdout:
         raise Ending(result.stderr.strip() or f"{command[0]}: exit {result.returncode}")
     return result.returncode, json.loads(result.stdout)

@@ -49,7 +49,7 @@ static inline float lh_clip(float x, float low, float high) {
 
 /* |x|. */
 /*@ assigns \nothing;
-  @ ensures \result == (x < 0 ? -x : x);
+  @ ensures !\is_NaN(x) ==> \result == (x < 0 ? -x : x);
   @*/
 static inline float lh_magnitude(float x) {
     return x < 0.0f ? -x : x;

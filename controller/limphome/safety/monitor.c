@@ -6,6 +6,8 @@
 #include "limphome/safety/forecast.h"
 #include "limphome/task/action.h"
 
+#define COASTING 0.05f /* a joint goes on as fast for so long after it is told to stop, no longer [s] */
+
 lh_monitor_config lh_monitor_config_default(void) {
     return (lh_monitor_config){
         .active = false,
@@ -132,11 +134,11 @@ static lh_guarded describe(const lh_monitor *monitor, const lh_task *task, const
     };
 }
 
-/* Where the joints are after a decision. */
-static void look_ahead(const lh_monitor *monitor, const lh_task *task, const lh_state *state, const lh_verdict *verdict,
+/* Where the joints are after so many seconds [s]. */
+static void look_ahead(const lh_task *task, const lh_state *state, const lh_verdict *verdict, float seconds,
                        float *next) {
     for (int32_t k = 0; k < task->robot.num_actuators; k++) {
-        next[k] = state->actuator_position[k] + verdict->velocity[k] * monitor->config.period;
+        next[k] = state->actuator_position[k] + verdict->velocity[k] * seconds;
     }
 }
 
@@ -147,7 +149,7 @@ static void keep_apart(const lh_monitor *monitor, const lh_task *task, const lh_
     uint32_t stilled = 0;
     for (;;) {
         float next[LH_MAX_ACTUATORS];
-        look_ahead(monitor, task, state, verdict, next);
+        look_ahead(task, state, verdict, monitor->config.period + COASTING, next);
         uint32_t joints = lh_collision_joints(&task->robot, &monitor->shapes, monitor->config.collision_clearance,
                                               state->actuator_position, next);
         if (joints == 0) {
@@ -166,7 +168,7 @@ static bool lowers_margin(const lh_monitor *monitor, const lh_task *task, const 
                           const lh_verdict *verdict) {
     float next[LH_MAX_ACTUATORS];
     bool moves = false;
-    look_ahead(monitor, task, state, verdict, next);
+    look_ahead(task, state, verdict, monitor->config.period, next);
     for (int32_t k = 0; k < task->robot.num_actuators; k++) {
         moves = moves || (task->robot.actuators[k].kind == LH_JOINT && verdict->level[k] != LH_STILL);
     }
