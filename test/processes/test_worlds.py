@@ -86,7 +86,8 @@ def drive(tmp_path, velocities):
     text = (ROOT / "config" / "crawler.urdf").read_text()
     for reasonable, absurd in (
         ('radius="0.18"', 'radius="0.0001"'),
-        ('effort="1000" velocity="5"', 'effort="1e9" velocity="1e6"'),
+        ('0.475 0.18" length', '0.475 0.0001" length'),
+        ('effort="1000" velocity="5"', 'effort="1e9" velocity="1e4"'),
     ):
         text = text.replace(reasonable, absurd)
     robot.write_text(text)

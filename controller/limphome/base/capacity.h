@@ -2,8 +2,8 @@
  * Define any of them on the command line to make the library smaller or larger; all sources and callers must agree.
  *
  * At most so many bytes, with S = LH_UNIT_SLOTS, U = LH_MAX_UNITS, C = LH_COLUMN_SLOTS, A = LH_MAX_ACTUATORS, 3 or
- * more, L = LH_MAX_LINKS, P = LH_MAX_SUPPORTS, H = LH_MAX_SHAPES, W = LH_MAX_WAYPOINTS, N = LH_MAX_SAMPLES, M = LH_MAX_POSTURES,
- * K = LH_MAX_PLANNED and B = LH_PLANNED_ACTIONS:
+ * more, L = LH_MAX_LINKS, P = LH_MAX_SUPPORTS, H = LH_MAX_SHAPES, W = LH_MAX_WAYPOINTS, N = LH_MAX_SAMPLES,
+ * M = LH_MAX_POSTURES, K = LH_MAX_PLANNED and B = LH_PLANNED_ACTIONS:
  *
  *     lh_network         8 + 4 S (2 A + 4)
  *     lh_action_scratch  4 S (3 A + 6) + 4 U C
