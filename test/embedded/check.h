@@ -56,6 +56,7 @@ void check_that(bool good, const char *claim, const char *file, const char *line
 #define ck_assert_double_lt(x, y) CHECK_CLAIM_AS(double, x, <, y)
 #define ck_assert_double_le(x, y) CHECK_CLAIM_AS(double, x, <=, y)
 #define ck_assert_double_gt(x, y) CHECK_CLAIM_AS(double, x, >, y)
+#define ck_assert_double_ge(x, y) CHECK_CLAIM_AS(double, x, >=, y)
 #define ck_assert_double_eq_tol(x, y, tolerance) \
     CHECK_CLAIM(fabs((double)(x) - (double)(y)) < (double)(tolerance), #x " == " #y " +- " #tolerance)
 #define ck_assert_mem_eq(x, y, size) CHECK_CLAIM(memcmp(x, y, size) == 0, #x " == " #y)

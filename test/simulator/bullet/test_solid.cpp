@@ -81,10 +81,10 @@ std::optional<double> expected_distance(const Twin &a, const Twin &b) {
 }
 
 struct Compared {
-    double over = 0;           // by how much ours claims more than there is [m]
-    double least_share = 1;    // of what there is, where it is above 1 mm
-    double claimed_touch = 0;  // widest gap that ours takes for a touch [m]
-    double depth_error = 0;    // [m]
+    double over = 0;                         // by how much ours claims more than there is [m]
+    double least_share = 1;                  // of what there is, where it is above 1 mm
+    double claimed_touch = 0;                // widest gap that ours takes for a touch [m]
+    double depth_error = 0;                  // [m]
     int apart = 0, inside = 0, far_off = 0;  // depths wrong by more than 0.2 mm
 };
 
