@@ -30,6 +30,18 @@ static void *need(void *memory) {
     return memory;
 }
 
+/* Names may hold anything; a remark is one line, and nothing that a terminal obeys: of U+0080 to U+009F, too. */
+static void blank_controls(char *text) {
+    for (char *c = text; *c != '\0'; c++) {
+        const unsigned char byte = (unsigned char)c[0], next = (unsigned char)c[1];
+        if (byte < ' ' || byte == 0x7f) {
+            *c = ' ';
+        } else if (byte == 0xc2 && next >= 0x80 && next < 0xa0) {
+            c[0] = c[1] = ' ';
+        }
+    }
+}
+
 static void add(struct remarks *remarks, unsigned long line, const char *text) {
     if (remarks->count == MOST_REMARKS) { /* nobody reads more */
         return;
@@ -39,9 +51,7 @@ static void add(struct remarks *remarks, unsigned long line, const char *text) {
         remarks->lines = need(realloc(remarks->lines, (size_t)remarks->room * sizeof *remarks->lines));
     }
     char *copy = need(strdup(text));
-    for (char *c = copy; *c != '\0'; c++) { /* names may hold anything; a remark is one line */
-        *c = (unsigned char)*c < ' ' ? ' ' : *c;
-    }
+    blank_controls(copy);
     remarks->lines[remarks->count++] = (struct remark){line, copy};
 }
 
