@@ -273,6 +273,25 @@ START_TEST(remarks_hold_nothing_that_a_terminal_obeys) {
 }
 END_TEST
 
+/* Whose 63rd byte is the first half of a letter. */
+START_TEST(long_names_are_cut_between_letters) {
+    char name[100] = "ab", text[200];
+    while (strlen(name) < 80) {
+        strcat(name, "\xc3\xa9");
+    }
+    snprintf(text, sizeof text, "<robot name=\"\x7f%s\"", name + 1);
+    edited_begin(&e);
+    edited_replace(&e, "<robot name=\"crawler\"", text);
+    edited_read(&e);
+    edited_expect_good(&e);
+    memset(name + 62, 0, 2);
+    name[0] = ' ';
+    name[62] = ' ';
+    ck_assert_str_eq(e.robot.name, name);
+    edited_end(&e);
+}
+END_TEST
+
 START_TEST(extensions_of_others_are_passed_over) {
     robot_description plain;
     ck_assert(robot_file_load(CONFIG_DIR "/crawler.urdf", NULL, &plain));
@@ -336,6 +355,7 @@ int main(void) {
     tcase_add_test(cases, deep_xml_is_refused);
     tcase_add_test(cases, a_large_tag_is_read_at_once);
     tcase_add_test(cases, remarks_hold_nothing_that_a_terminal_obeys);
+    tcase_add_test(cases, long_names_are_cut_between_letters);
     tcase_add_test(cases, extensions_of_others_are_passed_over);
     tcase_add_test(cases, fixed_links_become_one_body);
     tcase_add_test(cases, there_are_as_many_arm_joints_as_the_file_gives);
