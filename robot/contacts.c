@@ -52,8 +52,14 @@ void contacts_find(struct reading *r, const struct elements *e, robot_descriptio
 
 /* The link of shape `index` as robot_overlap.h counts, NULL for a belt. */
 static const struct file_link *link_of(const struct elements *e, const robot_description *robot, int index) {
-    const int link = index < robot->num_shapes ? find_link(e, robot->shapes[index].name) : -1;
-    return link < 0 ? NULL : &e->links[link];
+    for (int i = 0; i < e->num_links && index < robot->num_shapes; i++) {
+        char name[ROBOT_NAME_LENGTH];
+        short_name(name, e->links[i].name);
+        if (e->links[i].body == robot->shapes[index].body && strcmp(name, robot->shapes[index].name) == 0) {
+            return &e->links[i];
+        }
+    }
+    return NULL;
 }
 
 static int body_of(const robot_description *robot, int index) {

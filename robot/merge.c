@@ -1,13 +1,6 @@
 #include "merge.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #define LEAST_MASS 1e-6 /* [kg] */
-
-static void copy_name(char name[ROBOT_NAME_LENGTH], const char *from) {
-    snprintf(name, ROBOT_NAME_LENGTH, "%.*s", ROBOT_NAME_LENGTH - 1, from);
-}
 
 /* What a joint that is held adds to its origin. */
 static frame held_motion(const struct file_joint *joint) {
@@ -20,7 +13,7 @@ static frame held_motion(const struct file_joint *joint) {
 static void begin_body(const struct file_joint *joint, const struct file_link *link, const struct file_link *parent,
                        robot_body *body) {
     const frame origin = frame_multiply(&parent->pose, &joint->origin);
-    copy_name(body->name, link->name);
+    short_name(body->name, link->name);
     body->parent = parent->body;
     body->joint = frame_pose(&origin);
     vector_store(joint->axis, body->axis);
@@ -63,7 +56,7 @@ bool merge_links(struct reading *r, struct elements *e, const int order[MOST_LIN
     root->body = 0;
     e->moved[0] = order[0];
     root->pose = *root_pose;
-    copy_name(robot->bodies[0].name, root->name);
+    short_name(robot->bodies[0].name, root->name);
     robot->bodies[0].parent = -1;
     robot->bodies[0].joint = (robot_pose){{0, 0, 0}, {1, 0, 0, 0}};
     robot->bodies[0].axis[2] = 1;

@@ -1,9 +1,12 @@
 #include "mesh.h"
 
+#include <assimp/cfileio.h>
 #include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/scene.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -43,14 +46,74 @@ static void include_node(struct bounds *b, const struct aiScene *scene, const st
     }
 }
 
+static FILE *stream_of(struct aiFile *file) {
+    return (FILE *)file->UserData;
+}
+
+static size_t read_file(struct aiFile *file, char *to, size_t size, size_t count) {
+    return fread(to, size, count, stream_of(file));
+}
+
+static size_t write_nothing(struct aiFile *file, const char *from, size_t size, size_t count) {
+    (void)file, (void)from, (void)size, (void)count;
+    return 0;
+}
+
+static size_t tell_file(struct aiFile *file) {
+    return (size_t)ftell(stream_of(file));
+}
+
+static size_t size_file(struct aiFile *file) {
+    struct stat found;
+    return fstat(fileno(stream_of(file)), &found) == 0 ? (size_t)found.st_size : 0;
+}
+
+static aiReturn seek_file(struct aiFile *file, size_t offset, enum aiOrigin origin) {
+    static const int from[] = {SEEK_SET, SEEK_CUR, SEEK_END}; /* aiOrigin_SET, _CUR, _END */
+    return fseek(stream_of(file), (long)offset, from[origin]) == 0 ? aiReturn_SUCCESS : aiReturn_FAILURE;
+}
+
+static void flush_nothing(struct aiFile *file) {
+    (void)file;
+}
+
+/* Nothing but the mesh itself is opened: what it names besides, such as materials, may lie anywhere, or be a pipe. */
+static struct aiFile *open_file(struct aiFileIO *io, const char *path, const char *mode) {
+    (void)mode;
+    FILE *stream = strcmp(path, io->UserData) == 0 ? fopen(path, "rb") : NULL;
+    if (stream == NULL) {
+        return NULL;
+    }
+    struct aiFile *file = malloc(sizeof *file);
+    if (file == NULL) {
+        fclose(stream);
+        return NULL;
+    }
+    *file = (struct aiFile){.ReadProc = read_file,
+                            .WriteProc = write_nothing,
+                            .TellProc = tell_file,
+                            .FileSizeProc = size_file,
+                            .SeekProc = seek_file,
+                            .FlushProc = flush_nothing,
+                            .UserData = (char *)stream};
+    return file;
+}
+
+static void close_file(struct aiFileIO *io, struct aiFile *file) {
+    (void)io;
+    fclose(stream_of(file));
+    free(file);
+}
+
 /* Bounds of all vertices of a file. A COLLADA file's unit counts, its up axis does not: so ROS takes them. */
-static bool find_bounds(const char *path, struct bounds *b) {
+static bool find_bounds(char *path, struct bounds *b) {
     struct aiPropertyStore *properties = aiCreatePropertyStore();
     if (properties == NULL) {
         return false;
     }
     aiSetImportPropertyInteger(properties, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
-    const struct aiScene *scene = aiImportFileExWithProperties(path, 0, NULL, properties);
+    struct aiFileIO io = {.OpenProc = open_file, .CloseProc = close_file, .UserData = path};
+    const struct aiScene *scene = aiImportFileExWithProperties(path, 0, &io, properties);
     aiReleasePropertyStore(properties);
     *b = (struct bounds){{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
     if (scene == NULL || scene->mRootNode == NULL) {
@@ -84,7 +147,7 @@ static void make_box(const struct bounds *b, vector scale, struct file_shape *sh
 }
 
 /* The file of a mesh, or NULL with a fault. */
-static const char *find_file(struct reading *r, const struct xml_element *at) {
+static char *find_file(struct reading *r, const struct xml_element *at) {
     const char *name = read_name(r, at, "filename");
     if (name[0] == '\0') {
         return NULL;
@@ -93,7 +156,7 @@ static const char *find_file(struct reading *r, const struct xml_element *at) {
         fault(r, at, "filename", "is of an unknown kind; known are .stl, .obj and .dae");
         return NULL;
     }
-    const char *path = mesh_path(r, name);
+    char *path = mesh_path(r, name);
     struct stat found;
     if (path == NULL) {
         fault(r, at, "filename",
@@ -109,7 +172,7 @@ static const char *find_file(struct reading *r, const struct xml_element *at) {
 bool mesh_read(struct reading *r, const struct xml_element *at, struct file_shape *shape) {
     vector scale = {1, 1, 1};
     read_vector(r, at, "scale", false, 1e6, &scale);
-    const char *path = find_file(r, at);
+    char *path = find_file(r, at);
     if (path == NULL) {
         return false;
     }

@@ -91,17 +91,24 @@ static bool find(const char *folder, const char *packages, const char *name, con
 }
 
 const char *mesh_copy(struct reading *r, const char *name) {
-    static const char folder[] = "robot_meshes/";
-    char *copy = arena_take(&r->arena, sizeof folder + strlen(name), 1);
+    static const char folder[] = "robot_meshes/", digits[] = "0123456789abcdef";
+    char *copy = arena_take(&r->arena, sizeof folder + 3 * strlen(name), 1);
     memcpy(copy, folder, sizeof folder);
     char *end = copy + strlen(folder);
     for (const char *c = name; *c != '\0'; c++) {
-        *end++ = isalnum((unsigned char)*c) || *c == '.' || *c == '-' ? *c : '_';
+        const unsigned char byte = (unsigned char)*c;
+        if (isalnum(byte) || byte == '.' || byte == '-') {
+            *end++ = *c;
+        } else { /* no two names may share a copy */
+            *end++ = '_';
+            *end++ = digits[byte / 16];
+            *end++ = digits[byte % 16];
+        }
     }
     return copy;
 }
 
-const char *mesh_path(struct reading *r, const char *name) {
+char *mesh_path(struct reading *r, const char *name) {
     char folder[PATH_MAX], path[PATH_LENGTH];
     if (realpath(r->path, folder) == NULL) {
         return NULL;

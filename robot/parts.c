@@ -1,7 +1,5 @@
 #include "parts.h"
 
-#include <stdio.h>
-
 static bool is_far(const double point[3]) {
     return vector_norm(vector_of(point)) > MOST_METRES;
 }
@@ -42,7 +40,7 @@ void parts_actuators(const struct elements *e, robot_description *robot) {
         const struct file_actuator *from = &e->actuators[a];
         robot_actuator *actuator = &robot->actuators[a];
         const char *name = from->joint >= 0 ? e->joints[from->joint].name : robot->bodies[a + 1].name;
-        snprintf(actuator->name, sizeof actuator->name, "%.*s", ROBOT_NAME_LENGTH - 1, name);
+        short_name(actuator->name, name);
         actuator->effort = from->effort;
         actuator->speed = from->velocity;
         if (!from->crawler) {

@@ -30,6 +30,29 @@ static void *need(void *memory) {
     return memory;
 }
 
+/* Names may hold anything, and are cut anywhere: blanks what terminals obey, U+0080 to U+009F too, and what is no whole
+ * UTF-8 character. */
+static void tidy(char *text) {
+    for (char *c = text; *c != '\0';) {
+        const unsigned char lead = (unsigned char)c[0];
+        const int length = lead < 0x80 ? 1 : lead < 0xc2 ? 0 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+        int whole = 1;
+        while (whole < length && ((unsigned char)c[whole] & 0xc0) == 0x80) {
+            whole++;
+        }
+        const bool control = lead < ' ' || lead == 0x7f || (lead == 0xc2 && (unsigned char)c[1] < 0xa0);
+        if (whole != length || control) {
+            memset(c, ' ', (size_t)whole);
+        }
+        c += whole;
+    }
+}
+
+void short_name(char name[ROBOT_NAME_LENGTH], const char *from) {
+    snprintf(name, ROBOT_NAME_LENGTH, "%.*s", ROBOT_NAME_LENGTH - 1, from);
+    tidy(name);
+}
+
 static void add(struct remarks *remarks, unsigned long line, const char *text) {
     if (remarks->count == MOST_REMARKS) { /* nobody reads more */
         return;
@@ -39,9 +62,7 @@ static void add(struct remarks *remarks, unsigned long line, const char *text) {
         remarks->lines = need(realloc(remarks->lines, (size_t)remarks->room * sizeof *remarks->lines));
     }
     char *copy = need(strdup(text));
-    for (char *c = copy; *c != '\0'; c++) { /* names may hold anything; a remark is one line */
-        *c = (unsigned char)*c < ' ' ? ' ' : *c;
-    }
+    tidy(copy); /* a remark is one line */
     remarks->lines[remarks->count++] = (struct remark){line, copy};
 }
 

@@ -43,6 +43,9 @@ void fault_in_line(struct reading *r, unsigned long line, const char *format, ..
 /* Notes that a file was read besides. */
 void note_mesh(struct reading *r, const char *path, const char *copy);
 
+/* A name as the description has it: its beginning, of whole characters, without what a terminal obeys. */
+void short_name(char name[ROBOT_NAME_LENGTH], const char *from);
+
 /* Moves all remarks, in the order of the file, to the report. */
 void reading_report(struct reading *r, robot_report *report);
 

@@ -42,7 +42,7 @@ static void build(struct reading *r, struct elements *e, robot_description *robo
         return;
     }
     const char *name = xml_attribute(e->robot, "name");
-    snprintf(robot->name, sizeof robot->name, "%.*s", ROBOT_NAME_LENGTH - 1, name == NULL ? "" : name);
+    short_name(robot->name, name == NULL ? "" : name);
     sprockets_make(r, e, robot);
     parts_actuators(e, robot);
     parts_supports(r, e, robot);

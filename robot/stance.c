@@ -25,6 +25,15 @@ static void turn_axes(struct reading *r, struct elements *e, vector left, const 
     }
 }
 
+/* Where the axes do not tell what is forward, the order of the crawlers does; it is easily mistaken. */
+static void tell_reversed(struct reading *r, const struct elements *e, vector left) {
+    if (left.y < -0.99 * hypot(left.x, left.y)) {
+        remark(r, crawler_at(e, 0), NULL,
+               "lies to the right, as seen along the x axis of the root link; as the first one is the left one, "
+               "forward is against that axis: if it is not, change the order of the crawlers");
+    }
+}
+
 static double ground_below(const robot_crawler *crawler) {
     return crawler->centre[2] - crawler->radius;
 }
@@ -82,6 +91,7 @@ bool stance_find(struct reading *r, struct elements *e, const robot_description 
         return false;
     }
     turn_axes(r, e, left, robot);
+    tell_reversed(r, e, left);
     const frame body = body_frame(left, robot);
     *root_pose = frame_inverse(&body);
     const double turned = atan2(body.axes.at[1][0], body.axes.at[0][0]) / DEGREE;

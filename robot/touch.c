@@ -1,7 +1,6 @@
 #include "touch.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 /* Shapes may reach beyond a belt by this share of its radius and still be the belt. */
@@ -147,7 +146,7 @@ static void add(struct candidates *all, const struct xml_element *at, const stru
     struct candidate *c = &all->list[all->count++];
     const frame pose = frame_multiply(&link->pose, &from->pose);
     c->at = at;
-    snprintf(c->shape.name, sizeof c->shape.name, "%.*s", ROBOT_NAME_LENGTH - 1, link->name);
+    short_name(c->shape.name, link->name);
     c->shape.body = link->body;
     c->shape.kind = from->kind;
     c->shape.pose = frame_pose(&pose);

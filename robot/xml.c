@@ -114,32 +114,45 @@ static void declare_entity(void *user, const char *name, int is_parameter, const
     stop(user, "<!ENTITY>: entities are refused; write what they stand for");
 }
 
-/* All of the file through the parser. */
+/* All of the file, up to the largest that is taken; its length, or more than that. */
+static size_t read_bytes(struct reading *r, FILE *file, char **bytes) {
+    size_t room = 0, length = 0, more = 0;
+    do {
+        if (length == room) {
+            room = room == 0 ? 65536 : 2 * room;
+            char *larger = arena_take(&r->arena, room, 1);
+            if (length > 0) {
+                memcpy(larger, *bytes, length);
+            }
+            *bytes = larger;
+        }
+        more = fread(*bytes + length, 1, room - length, file);
+        length += more;
+    } while (more > 0 && length <= XML_MOST_BYTES);
+    return length;
+}
+
+/* All of the file through the parser, at once: in pieces, a tag of many pieces is begun anew with each. */
 static void parse(struct parsing *p, FILE *file, uint64_t *hash) {
-    char buffer[4096];
-    size_t total = 0;
+    char *bytes = NULL;
+    const size_t length = read_bytes(p->r, file, &bytes);
+    if (ferror(file)) {
+        fault_in_line(p->r, 0, "cannot be read: %s", strerror(errno));
+        p->failed = true;
+        return;
+    }
+    if (length > XML_MOST_BYTES) {
+        stop(p, "is larger than 16 MiB");
+        return;
+    }
     *hash = 14695981039346656037u;
-    for (bool last = false; !last && !p->failed;) {
-        const size_t length = fread(buffer, 1, sizeof buffer, file);
-        if (ferror(file)) {
-            fault_in_line(p->r, 0, "cannot be read: %s", strerror(errno));
-            p->failed = true;
-            return;
-        }
-        total += length;
-        if (total > XML_MOST_BYTES) {
-            stop(p, "is larger than 16 MiB");
-            return;
-        }
-        last = length < sizeof buffer;
-        for (size_t i = 0; i < length; i++) {
-            *hash = (*hash ^ (unsigned char)buffer[i]) * 1099511628211u;
-        }
-        if (XML_Parse(p->parser, buffer, (int)length, last) == XML_STATUS_ERROR && !p->failed) {
-            p->failed = true;
-            fault_in_line(p->r, XML_GetCurrentLineNumber(p->parser), "not XML: %s",
-                          XML_ErrorString(XML_GetErrorCode(p->parser)));
-        }
+    for (size_t i = 0; i < length; i++) {
+        *hash = (*hash ^ (unsigned char)bytes[i]) * 1099511628211u;
+    }
+    if (XML_Parse(p->parser, bytes, (int)length, true) == XML_STATUS_ERROR && !p->failed) {
+        p->failed = true;
+        fault_in_line(p->r, XML_GetCurrentLineNumber(p->parser), "not XML: %s",
+                      XML_ErrorString(XML_GetErrorCode(p->parser)));
     }
 }
 

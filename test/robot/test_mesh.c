@@ -103,7 +103,7 @@ static const struct {
      "filename='../meshes/slab.obj' scale='0.001 0.001 0.001'"},
     {"src/bot/meshes/slab.obj", obj, "filename='file:///home/somebody/ws/src/bot/meshes/slab.obj'"},
     {"src/bot/meshes/slab.obj", obj, "filename='/opt/ros/share/bot/meshes/slab.obj'"},
-    {"src/bot/urdf/robot_meshes/package___gone_a_slab.obj", obj, "filename='package://gone/a/slab.obj'"},
+    {"src/bot/urdf/robot_meshes/package_3a_2f_2fgone_2fa_2fslab.obj", obj, "filename='package://gone/a/slab.obj'"},
 };
 
 START_TEST(a_mesh_is_the_box_round_it) {
@@ -157,12 +157,40 @@ START_TEST(meshes_that_are_only_seen_need_not_be_there) {
 }
 END_TEST
 
+/* A material that is a pipe would be waited for without end. */
+START_TEST(nothing_is_opened_but_the_mesh) {
+    char text[200], pipe[256];
+    snprintf(text, sizeof text, "mtllib pipe.mtl\n%s", obj);
+    write_file("src/bot/urdf/slab.obj", text);
+    snprintf(pipe, sizeof pipe, "%s/src/bot/urdf/pipe.mtl", m.folder);
+    ck_assert_int_eq(mkfifo(pipe, 0600), 0);
+    read_with("collision", "filename='slab.obj'", NULL);
+    expect_slab();
+}
+END_TEST
+
+START_TEST(no_two_meshes_share_a_copy) {
+    write_file("src/bot/urdf/a_b.obj", obj);
+    write_file("src/bot/urdf/a/b.obj", obj);
+    read_with("collision", "filename='a_b.obj'", NULL);
+    expect_slab();
+    char *first = strdup(m.report.meshes[0].copy);
+    robot_report_free(&m.report);
+    read_with("collision", "filename='a/b.obj'", NULL);
+    expect_slab();
+    ck_assert_str_ne(first, m.report.meshes[0].copy);
+    free(first);
+}
+END_TEST
+
 int main(void) {
     TCase *cases = tcase_create("mesh");
     tcase_add_checked_fixture(cases, setup, teardown);
     tcase_add_loop_test(cases, a_mesh_is_the_box_round_it, 0, (int)(sizeof kinds / sizeof kinds[0]));
     tcase_add_test(cases, packages_are_looked_for_where_the_caller_says);
     tcase_add_loop_test(cases, bad_meshes_are_refused, 0, (int)(sizeof refusals / sizeof refusals[0]));
+    tcase_add_test(cases, nothing_is_opened_but_the_mesh);
+    tcase_add_test(cases, no_two_meshes_share_a_copy);
     tcase_add_test(cases, meshes_that_are_only_seen_need_not_be_there);
     return run_suite("mesh", cases);
 }

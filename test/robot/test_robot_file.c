@@ -240,6 +240,58 @@ START_TEST(deep_xml_is_refused) {
 END_TEST
 
 /* Extensions of others, such as <transmission>, hold elements called joint and link: they are none of ours. */
+/* Read in pieces, a tag of 8 MB takes minutes; a test case may take 4 s. */
+START_TEST(a_large_tag_is_read_at_once) {
+    enum { LENGTH = 8000000 };
+    char path[] = "/tmp/limphome_large_XXXXXX", *name = malloc(LENGTH);
+    ck_assert_ptr_nonnull(name);
+    memset(name, 'x', LENGTH);
+    const int fd = mkstemp(path);
+    ck_assert_int_ge(fd, 0);
+    FILE *file = fdopen(fd, "w");
+    ck_assert_ptr_nonnull(file);
+    fprintf(file, "<robot name=\"%.*s\"/>", LENGTH, name);
+    fclose(file);
+    robot_report report;
+    ck_assert(!robot_file_read(path, NULL, &e.robot, &report));
+    ck_assert_ptr_nonnull(strstr(report.faults[0], "has no <link>"));
+    robot_report_free(&report);
+    unlink(path);
+    free(name);
+}
+END_TEST
+
+START_TEST(remarks_hold_nothing_that_a_terminal_obeys) {
+    edited_begin(&e);
+    edited_replace(&e, "<arm joint=\"arm\"",
+                   "<arm joint=\"a\x7f\xc2\x9b"
+                   "31m\xc3\xa9\"");
+    edited_read(&e);
+    ck_assert(!e.good);
+    ck_assert_ptr_nonnull(strstr(e.report.faults[0], "\"a   31m\xc3\xa9\""));
+    edited_end(&e);
+}
+END_TEST
+
+/* Whose 63rd byte is the first half of a letter. */
+START_TEST(long_names_are_cut_between_letters) {
+    char name[100] = "ab", text[200];
+    while (strlen(name) < 80) {
+        strcat(name, "\xc3\xa9");
+    }
+    snprintf(text, sizeof text, "<robot name=\"\x7f%s\"", name + 1);
+    edited_begin(&e);
+    edited_replace(&e, "<robot name=\"crawler\"", text);
+    edited_read(&e);
+    edited_expect_good(&e);
+    memset(name + 62, 0, 2);
+    name[0] = ' ';
+    name[62] = ' ';
+    ck_assert_str_eq(e.robot.name, name);
+    edited_end(&e);
+}
+END_TEST
+
 START_TEST(extensions_of_others_are_passed_over) {
     robot_description plain;
     ck_assert(robot_file_load(CONFIG_DIR "/crawler.urdf", NULL, &plain));
@@ -301,6 +353,9 @@ int main(void) {
     tcase_add_test(cases, no_extension_is_refused);
     tcase_add_test(cases, what_cannot_be_opened_or_read_is_told);
     tcase_add_test(cases, deep_xml_is_refused);
+    tcase_add_test(cases, a_large_tag_is_read_at_once);
+    tcase_add_test(cases, remarks_hold_nothing_that_a_terminal_obeys);
+    tcase_add_test(cases, long_names_are_cut_between_letters);
     tcase_add_test(cases, extensions_of_others_are_passed_over);
     tcase_add_test(cases, fixed_links_become_one_body);
     tcase_add_test(cases, there_are_as_many_arm_joints_as_the_file_gives);

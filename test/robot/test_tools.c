@@ -288,6 +288,7 @@ START_TEST(crawlers_without_joints_tell_what_is_forward) {
     edited_replace(&e, "xyz=\"0 0.475 0.18\" length", "xyz=\"0 -1.475 0.18\" length");
     edited_read(&e);
     edited_expect_notice(&e, "turned by -180 degrees");
+    edited_expect_notice(&e, "<crawler link=\"base\">: lies to the right");
     ck_assert_double_eq_tol(e.robot.crawlers[0].centre[1], 0.5, 1e-12);
     ck_assert_double_eq_tol(e.robot.bodies[1].joint.position[1], 0.5, 1e-12);
     ck_assert_double_eq_tol(e.robot.bodies[1].axis[1], 1, 1e-12);
