@@ -30,12 +30,12 @@ int main(int argc, char **argv) {
     if (result != COMMAND_LINE_RUN) {
         return result == COMMAND_LINE_DONE ? done : bad_input;
     }
-    process_end_on_signals(on_signal);
-
     robot_description robot;
-    if (!robot_file_load(line.robot, line.packages, &robot)) {
+    if (!robot_file_load(line.robot, line.packages, &robot)) {  // which a signal ends, even at a pipe that stays silent
         return bad_input;
     }
+    process_end_on_signals(on_signal);
+
     std::optional<limphome::World> world;
     std::optional<limphome::Link> link;
     try {

@@ -1,7 +1,9 @@
 """Both programs take a robot file alike: the same robot, or the same refusal in the same words."""
 
 import json
+import os
 import shutil
+import signal
 import subprocess
 
 import pytest
@@ -230,3 +232,13 @@ def test_a_run_folder_has_the_meshes_of_its_robot(tmp_path):
     result = train(tmp_path / "again", "--robot", robot, *short, check=False)
     assert result.returncode == 2 and "package://bot/elbow.obj" in result.stderr
     assert not (tmp_path / "again").exists()
+
+
+@pytest.mark.parametrize("program", ["controller", "simulator"])
+def test_a_pipe_that_stays_silent_can_be_left(tmp_path, program):
+    pipe = tmp_path / "robot.urdf"
+    os.mkfifo(pipe)
+    process = subprocess.Popen([paths.program(program), "--robot", pipe])
+    with open(pipe, "wb"):  # once this is open, the program waits for what comes
+        process.terminate()
+        assert process.wait(timeout=10) == -signal.SIGTERM
