@@ -226,9 +226,9 @@ def test_a_run_folder_has_the_meshes_of_its_robot(tmp_path):
     train(tmp_path / "run", "--robot", robot, "--packages", package.parent, *short)
     shutil.move(tmp_path / "run", tmp_path / "kept")
     shutil.rmtree(package)
-    assert (tmp_path / "kept" / "robot_meshes" / "package___bot_elbow.obj").is_file()
+    assert (tmp_path / "kept" / "robot_meshes" / "package_3a_2f_2fbot_2felbow.obj").is_file()
     run_script("evaluate", tmp_path / "kept", "--out", tmp_path / "evaluated", "--episodes", 1)
-    assert (tmp_path / "evaluated" / "robot_meshes" / "package___bot_elbow.obj").is_file()
+    assert (tmp_path / "evaluated" / "robot_meshes" / "package_3a_2f_2fbot_2felbow.obj").is_file()
     result = train(tmp_path / "again", "--robot", robot, *short, check=False)
     assert result.returncode == 2 and "package://bot/elbow.obj" in result.stderr
     assert not (tmp_path / "again").exists()

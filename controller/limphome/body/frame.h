@@ -22,7 +22,9 @@ static inline lh_vec3 lh_frame_point(const lh_frame *frame, lh_vec3 point) {
 
 /* That of `link`, given that of its parent. */
 static inline lh_frame lh_frame_of_child(const lh_frame *parent, const lh_link *link, const float *joint_angle) {
-    lh_frame child = {lh_frame_point(parent, link->origin), lh_quat_multiply(parent->rotation, link->rotation)};
+    lh_frame child;
+    child.origin = lh_frame_point(parent, link->origin);
+    child.rotation = lh_quat_multiply(parent->rotation, link->rotation);
     if (link->actuator >= 0) {
         lh_quat turn = lh_quat_about(link->axis, joint_angle[link->actuator]);
         child.rotation = lh_quat_multiply(child.rotation, turn);
@@ -35,9 +37,11 @@ static inline lh_frame lh_frame_of_child(const lh_frame *parent, const lh_link *
 /* The frames of all links, frames[robot->num_links], with the body's origin and `attitude`. */
 static inline void lh_frames_of_links(const lh_robot *robot, lh_quat attitude, const float *joint_angle,
                                       lh_frame *frames) {
-    const lh_frame base = {{0.0f, 0.0f, 0.0f}, attitude};
-    frames[0] = base;
-    for (int32_t i = 1; i < robot->num_links; i++) {
+    const lh_vec3 origin = {0.0f, 0.0f, 0.0f};
+    int32_t i; /* declared here for callers in older C */
+    frames[0].origin = origin;
+    frames[0].rotation = attitude;
+    for (i = 1; i < robot->num_links; i++) {
         const lh_link *link = &robot->links[i];
         frames[i] = lh_frame_of_child(&frames[link->parent], link, joint_angle);
     }
