@@ -2,6 +2,7 @@
 
 import contextlib
 import ctypes
+import functools
 import os
 import signal
 import subprocess
@@ -10,6 +11,7 @@ import weakref
 from limphome_lab.ending import Ending
 
 PR_SET_PDEATHSIG = 1
+ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 GRACE_S = 10.0  # to end cleanly after a signal, before the next, harder one
 LOG_TAIL = 15  # lines
 TAIL_LENGTH = 8192  # [bytes] of a program's last words that are kept
@@ -65,17 +67,22 @@ class Child:
             self._start(command, output)
 
     def _start(self, command, output):
-        # a session of its own: Ctrl-C in the terminal reaches this process alone, which ends its children in order
-        self.process = subprocess.Popen(
-            command,
-            bufsize=0,
-            stdin=subprocess.DEVNULL,
-            stdout=output,
-            stderr=subprocess.STDOUT,
-            start_new_session=True,
-            preexec_fn=_prepare,
-        )
-        _children.add(self)
+        # a session of its own: Ctrl-C in the terminal reaches this process alone, which ends its children in order.
+        # Until the child has become the program it takes no signal, as it would tell of it in this one's name
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, ENDING)
+        try:
+            self.process = subprocess.Popen(
+                command,
+                bufsize=0,
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+                preexec_fn=functools.partial(_prepare, mask),
+            )
+            _children.add(self)
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
 
     def exit_code(self):
         """None while it runs; negative where a signal ended it."""
@@ -128,9 +135,11 @@ def _last_lines(text):
     return "\n".join(text.splitlines()[-LOG_TAIL:])
 
 
-def _prepare():
-    """In the child, before the program: die with the parent, and take no inherited 'ignore' for signals. SIGKILL, as
-    one that is stopped heeds no other; the run folder stays whole under it."""
+def _prepare(mask):
+    """In the child, before the program: die with the parent, and take no inherited 'ignore' for signals, of which none
+    but those of `mask` is held back any more. SIGKILL, as one that is stopped heeds no other; the run folder stays
+    whole under it."""
     _libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-    for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    for each in ENDING:
         signal.signal(each, signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_SETMASK, mask)
