@@ -164,8 +164,9 @@ double Scene::kinetic_energy() const {
 // Lets the robot sink in for so long [s]. On uneven ground it rocks over bumps, which hardly anything damps: it is
 // stopped where it is fastest, as it passes its equilibrium there.
 void Scene::sink_in(double duration) {
-    double energy = 0;
-    for (double time = 0; time < duration; time += time_step_) {
+    double energy = 0, time = 0;
+    while (time < duration) {
+        time += time_step_;
         for (Contact &contact : pipeline_.contacts) {
             contact.impulse.tail<2>().setZero();  // locks no friction in between the points of contact
         }

@@ -95,17 +95,15 @@ END_TEST
 START_TEST(links_are_counted_after_merging) {
     edited_begin(&e);
     static char bolts[40000];
-    bolts[0] = '\0';
+    size_t length = 0;
     for (int i = 0; i < 120; i++) {
-        char bolt[330];
-        snprintf(
-            bolt, sizeof bolt,
+        length += (size_t)snprintf(
+            bolts + length, sizeof bolts - length,
             "<link name='b%d'><inertial><mass value='0.1'/><inertia ixx='1e-5' iyy='1e-5' izz='1e-5' ixy='0' ixz='0' "
             "iyz='0'/></inertial></link><joint name='b%d' type='fixed'><parent link='%s'/><child link='b%d'/></joint>",
             i, i, i % 2 == 0 ? "base" : "arm", i);
-        strcat(bolts, bolt);
     }
-    strcat(bolts, "<limphome>");
+    snprintf(bolts + length, sizeof bolts - length, "<limphome>");
     edited_replace(&e, "<limphome>", bolts);
     edited_read(&e);
     edited_expect_good(&e);

@@ -15,9 +15,8 @@ static void read_with(const char *link, const char *shape) {
     ck_assert_ptr_nonnull(at);
     char *end = strstr(at, "</link>");
     static char rest[EDITED_LENGTH];
-    strcpy(rest, end + strlen("</link>"));
-    strcpy(end, shape);
-    strcat(end, rest);
+    snprintf(rest, sizeof rest, "%s", end + strlen("</link>"));
+    snprintf(end, sizeof e.text - (size_t)(end - e.text), "%s%s", shape, rest);
     edited_read(&e);
 }
 
@@ -102,15 +101,14 @@ END_TEST
 /* The smallest are left out where there are too many. */
 START_TEST(there_is_room_for_the_largest_shapes) {
     static char shapes[20000];
-    shapes[0] = '\0';
+    size_t length = 0;
     for (int i = 0; i < 100; i++) {
-        char shape[150];
-        snprintf(shape, sizeof shape,
-                 "<collision><origin xyz='0 0 0.4'/><geometry><sphere radius='%g'/></geometry></collision>",
-                 0.01 + 1e-3 * i);
-        strcat(shapes, shape);
+        length +=
+            (size_t)snprintf(shapes + length, sizeof shapes - length,
+                             "<collision><origin xyz='0 0 0.4'/><geometry><sphere radius='%g'/></geometry></collision>",
+                             0.01 + 1e-3 * i);
     }
-    strcat(shapes, "</link>");
+    snprintf(shapes + length, sizeof shapes - length, "</link>");
     read_with("base", shapes);
     edited_expect_notice(&e, " shapes that may touch; the ");
     edited_expect_notice(&e, " smallest, of at most 0.");
