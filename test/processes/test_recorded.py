@@ -1,4 +1,4 @@
-"""What is learned does not change unnoticed: SHA-256 of what runs of 60 short episodes left behind.
+"""What is learned does not change unnoticed: SHA-256 of what runs of 40 short episodes left behind.
 
 A change of recorded.json says that the learner, the task or the physics has changed, and is a decision of its own. The
 library gives the same bits everywhere; the simulator's depend on the C library's sine, which has two forms on x86-64.
@@ -33,7 +33,7 @@ def test_what_is_learned_is_what_was_recorded(experiment, tmp_path):
         "--config",
         ROOT / "config" / f"{experiment}.ini",
         "--episodes",
-        60,
+        40,
         "--set",
         "episode.step_limit=200",
         "--out",
