@@ -148,7 +148,7 @@ robot_solid solid_of(Kind kind, const Eigen::Vector3d &half, const Eigen::Isomet
 
 Meeting meet_below(const robot_solid &a, const robot_solid &b) {
     const robot_gap gap = robot_solid_gap(&a, &b);
-    const Meeting meeting = meet(a, b, gap);
+    Meeting meeting = meet(a, b, gap);
     EXPECT_NEAR((meeting.normal - Eigen::Vector3d::UnitZ()).norm(), 0, 1e-6);
     for (int i = 0; i < meeting.count; i++) {
         const MeetingPoint &at = meeting.points[static_cast<std::size_t>(i)];

@@ -114,7 +114,8 @@ TEST(Ground, RoughGroundDoesNotRepeatItself) {
     const Ground ground(rough(0.1, 1));
     constexpr int points = 400;  // a node apart and more
     const auto height = [&ground](int i, const Eigen::Vector2d &away) {
-        return ground.height(away.x() + 0.7 * (i % 20), away.y() + 0.7 * (i / 20));
+        const int row = i / 20, column = i % 20;
+        return ground.height(away.x() + 0.7 * column, away.y() + 0.7 * row);
     };
     const auto correlation = [&](const Eigen::Vector2d &away) {
         double here = 0, there = 0, both = 0;
@@ -138,6 +139,7 @@ TEST(Ground, RoughGroundDoesNotRepeatItself) {
 TEST(Ground, IsTheSameInWhateverOrderItIsLookedAt) {
     const Ground ground(rough(0.1, 1)), backwards(rough(0.1, 1));
     std::vector<double> heights;
+    heights.reserve(500);
     for (int i = 0; i < 500; i++) {
         heights.push_back(ground.height(0.61 * (i % 40), -4.0 * (i % 7)));
     }
