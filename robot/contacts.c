@@ -4,10 +4,6 @@
 
 #include "robot_overlap.h"
 
-static bool is_sprocket(int body) {
-    return body > 0 && body <= ROBOT_CRAWLERS;
-}
-
 static bool read_self_contact(struct reading *r, const struct xml_element *extension) {
     const char *value = xml_attribute(extension, "self_contact");
     if (value == NULL || strcmp(value, "true") == 0) {

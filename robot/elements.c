@@ -3,6 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+/* [kg m^2] */
+#define MOST_INERTIA 1e9
+
 int find_link(const struct elements *e, const char *name) {
     for (int i = 0; i < e->num_links; i++) {
         if (strcmp(e->links[i].name, name) == 0) {
@@ -31,22 +34,17 @@ int read_known(struct reading *r, const struct xml_element *at, const char *key,
     return index;
 }
 
-/* [kg m^2] */
-#define MOST_INERTIA 1e9
+bool is_sprocket(int body) {
+    return body > 0 && body <= ROBOT_CRAWLERS;
+}
 
-/* Elements that others look at, and those of URDF that a robot is the same robot without. */
-static bool is_known(const char *name, const char *const *known) {
-    for (; *known != NULL; known++) {
-        if (strcmp(name, *known) == 0) {
-            return true;
-        }
-    }
-    return false;
+bool is_far(const double point[3]) {
+    return vector_norm(vector_of(point)) > MOST_METRES;
 }
 
 static void tell_unknown(struct reading *r, const struct xml_element *at, const char *const *known) {
     for (const struct xml_element *child = at->first; child != NULL; child = child->next) {
-        if (!is_known(child->name, known)) {
+        if (!xml_is_one_of(child->name, known)) {
             remark(r, child, NULL, "is no element of URDF; passed over");
         }
     }
@@ -65,11 +63,8 @@ static void read_inertia(struct reading *r, const struct xml_element *at, matrix
     }
 }
 
-/* The first of the elements of that name in <limphome> that names the link by `key`, or NULL. */
-static const struct xml_element *in_extension(const struct elements *e, const char *element, const char *key,
-                                              const char *link) {
-    const struct xml_element *extension = xml_child(e->robot, "limphome");
-    const struct xml_element *at = extension != NULL ? xml_child(extension, element) : NULL;
+/* From an element on, the first of its name that names the link by `key`, or NULL. */
+static const struct xml_element *naming(const struct xml_element *at, const char *key, const char *link) {
     for (; at != NULL; at = xml_again(at)) {
         const char *named = xml_attribute(at, key);
         if (named != NULL && strcmp(named, link) == 0) {
@@ -77,6 +72,12 @@ static const struct xml_element *in_extension(const struct elements *e, const ch
         }
     }
     return NULL;
+}
+
+/* The first element of that name in <limphome>, or NULL. */
+static const struct xml_element *in_extension(const struct elements *e, const char *element) {
+    const struct xml_element *extension = xml_child(e->robot, "limphome");
+    return extension != NULL ? xml_child(extension, element) : NULL;
 }
 
 /* <inertial> of the extension, in place of the link's own: that of a box of even density. */
@@ -94,7 +95,7 @@ static void read_box_inertial(struct reading *r, const struct xml_element *at, s
 }
 
 static void read_inertial(struct reading *r, const struct elements *e, struct file_link *link) {
-    const struct xml_element *given = in_extension(e, "inertial", "link", link->name);
+    const struct xml_element *given = naming(in_extension(e, "inertial"), "link", link->name);
     if (given != NULL) {
         read_box_inertial(r, given, link);
         return;
@@ -121,14 +122,11 @@ static void read_inertial(struct reading *r, const struct elements *e, struct fi
 
 /* Whether the extension leaves the shapes of a link out: they are not looked at, nor are their meshes. */
 static bool touches_nothing(const struct elements *e, const char *name) {
-    const struct xml_element *at = in_extension(e, "no_contact", "link1", name);
-    for (; at != NULL; at = xml_again(at)) {
-        const char *link = xml_attribute(at, "link1");
-        if (link != NULL && strcmp(link, name) == 0 && xml_attribute(at, "link2") == NULL) {
-            return true;
-        }
+    const struct xml_element *at = naming(in_extension(e, "no_contact"), "link1", name);
+    while (at != NULL && xml_attribute(at, "link2") != NULL) {
+        at = naming(xml_again(at), "link1", name);
     }
-    return false;
+    return at != NULL;
 }
 
 static void read_link(struct reading *r, const struct elements *e, struct file_link *link) {

@@ -98,4 +98,10 @@ int read_known(struct reading *r, const struct xml_element *at, const char *key,
 int find_link(const struct elements *e, const char *name);
 int find_joint(const struct elements *e, const char *name);
 
+/* Whether a body is the sprocket of a crawler. */
+bool is_sprocket(int body);
+
+/* Whether a point is farther away than anything of a robot: chains of links may lead there where none of them does. */
+bool is_far(const double point[3]);
+
 #endif

@@ -11,11 +11,7 @@
 /* Attributes that are none of `known`, a list with NULL at its end: most likely a misspelt one. */
 static void refuse_unknown_attributes(struct reading *r, const struct xml_element *at, const char *const *known) {
     for (const char **a = at->attributes; a[0] != NULL; a += 2) {
-        bool found = false;
-        for (const char *const *k = known; *k != NULL && !found; k++) {
-            found = strcmp(a[0], *k) == 0;
-        }
-        if (!found) {
+        if (!xml_is_one_of(a[0], known)) {
             fault(r, at, a[0], "unknown attribute");
         }
     }
@@ -236,17 +232,13 @@ static void check_counts(struct reading *r, const struct elements *e) {
 
 /* What may stand in <limphome>, with the attributes of what is read elsewhere. */
 static void check_names(struct reading *r, const struct xml_element *extension) {
-    static const char *const names[] = {"crawler", "arm", "tip", "support", "hold", "inertial", "no_contact"};
+    static const char *const names[] = {"crawler", "arm", "tip", "support", "hold", "inertial", "no_contact", NULL};
     static const char *const own[] = {"self_contact", NULL}, *const hold[] = {"joint", "home", NULL},
                              *const no_contact[] = {"link1", "link2", NULL},
                              *const inertial[] = {"link", "mass", "xyz", "size", NULL};
     refuse_unknown_attributes(r, extension, own);
     for (const struct xml_element *at = extension->first; at != NULL; at = at->next) {
-        bool found = false;
-        for (size_t i = 0; i < sizeof names / sizeof names[0] && !found; i++) {
-            found = strcmp(at->name, names[i]) == 0;
-        }
-        if (!found) {
+        if (!xml_is_one_of(at->name, names)) {
             fault(r, at, NULL,
                   "unknown inside <limphome>; known are <crawler>, <arm>, <tip>, <support>, <hold>, <inertial>, "
                   "<no_contact>");

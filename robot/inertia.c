@@ -60,10 +60,6 @@ static double link_reach(const struct elements *e, int index) {
     return reach;
 }
 
-static bool is_sprocket(int body) {
-    return body > 0 && body <= ROBOT_CRAWLERS;
-}
-
 /* Told of a link that makes no difference to the body it is part of. */
 static const char harmless[] = "; taken as it stands, for it makes no difference to what it is fixed to";
 

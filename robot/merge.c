@@ -39,7 +39,7 @@ static bool place(struct reading *r, struct elements *e, struct file_link *link,
               e->joints[e->actuators[parent->body - 1].joint].name);
         return false;
     }
-    if (parent->body > 0 && parent->body <= ROBOT_CRAWLERS) {
+    if (is_sprocket(parent->body)) {
         fault(r, actuator->at, "joint", "hangs on the sprocket of a crawler; must hang on the base or on the arm");
         return false;
     }
@@ -114,11 +114,6 @@ static void add_mass(const struct file_link *link, robot_body *body) {
 /* The body of a sprocket that the file has no joint for is of no link. */
 static bool has_links(const struct elements *e, int body) {
     return body == 0 || e->actuators[body - 1].joint >= 0;
-}
-
-/* Chains of links may lead far where each of them does not. */
-static bool is_far(const double point[3]) {
-    return vector_norm(vector_of(point)) > MOST_METRES;
 }
 
 static void check_body(struct reading *r, const struct xml_element *at, const robot_body *body) {

@@ -1,9 +1,5 @@
 #include "parts.h"
 
-static bool is_far(const double point[3]) {
-    return vector_norm(vector_of(point)) > MOST_METRES;
-}
-
 /* The link in whose frame a crawler's middle is given. */
 static const struct file_link *carrier(const struct elements *e, const struct file_actuator *from) {
     return &e->links[from->joint < 0 ? from->link : e->joints[from->joint].parent];

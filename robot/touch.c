@@ -23,10 +23,6 @@ struct candidates {
     int count;
 };
 
-static bool is_sprocket(int body) {
-    return body > 0 && body <= ROBOT_CRAWLERS;
-}
-
 /* How far a shape reaches from its middle along a unit vector, both in the same frame. */
 static double reach(const robot_shape *shape, const frame *pose, vector along) {
     const matrix back = matrix_transpose(&pose->axes);

@@ -25,6 +25,13 @@ const char *xml_attribute(const struct xml_element *element, const char *name) {
     return NULL;
 }
 
+bool xml_is_one_of(const char *name, const char *const *list) {
+    while (*list != NULL && strcmp(name, *list) != 0) {
+        list++;
+    }
+    return *list != NULL;
+}
+
 static const struct xml_element *first_named(const struct xml_element *at, const char *name) {
     while (at != NULL && strcmp(at->name, name) != 0) {
         at = at->next;

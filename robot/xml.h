@@ -27,6 +27,9 @@ struct xml_element *xml_read(struct reading *r, uint64_t *hash);
 /* Value of an attribute, or NULL. */
 const char *xml_attribute(const struct xml_element *element, const char *name);
 
+/* Whether a name is in a list that NULL ends. */
+bool xml_is_one_of(const char *name, const char *const *list);
+
 /* First child of that name, or NULL; and the next one of the same name after a child. */
 const struct xml_element *xml_child(const struct xml_element *element, const char *name);
 const struct xml_element *xml_again(const struct xml_element *child);
