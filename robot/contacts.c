@@ -46,18 +46,6 @@ void contacts_find(struct reading *r, const struct elements *e, robot_descriptio
     }
 }
 
-/* The link of shape `index` as robot_overlap.h counts, NULL for a belt. */
-static const struct file_link *link_of(const struct elements *e, const robot_description *robot, int index) {
-    for (int i = 0; i < e->num_links && index < robot->num_shapes; i++) {
-        char name[ROBOT_NAME_LENGTH];
-        short_name(name, e->links[i].name);
-        if (e->links[i].body == robot->shapes[index].body && strcmp(name, robot->shapes[index].name) == 0) {
-            return &e->links[i];
-        }
-    }
-    return NULL;
-}
-
 static int body_of(const robot_description *robot, int index) {
     return index < robot->num_shapes ? robot->shapes[index].body : 0;
 }
@@ -67,11 +55,14 @@ static const char *name_of(const robot_description *robot, int index) {
     return index < robot->num_shapes ? robot->shapes[index].name : belts[index - robot->num_shapes];
 }
 
-/* Whether the shapes of a link are taken from meshes. */
-static bool is_approximated(const struct file_link *link) {
-    for (int i = 0; link != NULL && i < link->num_shapes; i++) {
-        const struct xml_element *geometry = xml_child(link->shapes[i].at, "geometry");
-        if (geometry != NULL && xml_child(geometry, "mesh") != NULL) {
+/* Whether shapes of the link of shape `index`, as robot_overlap.h counts, are taken from meshes. */
+static bool is_approximated(const struct elements *e, const robot_description *robot, int index) {
+    if (index >= robot->num_shapes) { /* a belt */
+        return false;
+    }
+    const struct file_link *link = e->shape_links[index];
+    for (int i = 0; i < link->num_shapes; i++) {
+        if (link->shapes[i].from_mesh) {
             return true;
         }
     }
@@ -83,7 +74,7 @@ void contacts_check(struct reading *r, const struct elements *e, robot_descripti
     while (robot_overlaps_at_home(robot, &overlap, 1) > 0) {
         const char *first = name_of(robot, overlap.shape), *second = name_of(robot, overlap.other);
         const int a = body_of(robot, overlap.shape), b = body_of(robot, overlap.other);
-        if (is_approximated(link_of(e, robot, overlap.shape)) || is_approximated(link_of(e, robot, overlap.other))) {
+        if (is_approximated(e, robot, overlap.shape) || is_approximated(e, robot, overlap.other)) {
             remark(r, e->extension, NULL,
                    "%.60s and %.60s reach %.3g m into each other in the initial pose, with shapes taken from meshes: "
                    "their bodies are taken never to touch",

@@ -13,6 +13,7 @@ struct file_shape {
     robot_shape_kind kind;
     frame pose; /* in the frame of its link */
     vector half_size;
+    bool from_mesh; /* the box round it */
 };
 
 struct file_link {
@@ -75,9 +76,10 @@ struct elements {
     const struct xml_element *robot, *extension;
     struct file_link *links;
     struct file_joint *joints;
-    struct file_actuator actuators[ROBOT_MAX_ACTUATORS]; /* crawlers first */
-    struct file_support supports[ROBOT_MAX_SUPPORTS];    /* tips first */
-    int moved[ROBOT_MAX_BODIES];                         /* link that the joint of a body moves; [0]: the root */
+    struct file_actuator actuators[ROBOT_MAX_ACTUATORS];   /* crawlers first */
+    struct file_support supports[ROBOT_MAX_SUPPORTS];      /* tips first */
+    int moved[ROBOT_MAX_BODIES];                           /* link that the joint of a body moves; [0]: the root */
+    const struct file_link *shape_links[ROBOT_MAX_SHAPES]; /* of the robot's shapes, as found by touch_find */
     int num_links, num_joints, num_actuators, num_supports, num_tips;
 };
 

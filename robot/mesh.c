@@ -142,6 +142,7 @@ static void make_box(const struct bounds *b, vector scale, struct file_shape *sh
     }
     const frame offset = {vector_of(middle), matrix_identity()};
     shape->kind = ROBOT_BOX;
+    shape->from_mesh = true;
     shape->pose = frame_multiply(&shape->pose, &offset);
     shape->half_size = vector_of(half);
 }

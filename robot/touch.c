@@ -15,6 +15,7 @@
 /* A shape on its way into the description. */
 struct candidate {
     const struct xml_element *at;
+    const struct file_link *link;
     robot_shape shape;
 };
 
@@ -142,6 +143,7 @@ static void add(struct candidates *all, const struct xml_element *at, const stru
     struct candidate *c = &all->list[all->count++];
     const frame pose = frame_multiply(&link->pose, &from->pose);
     c->at = at;
+    c->link = link;
     short_name(c->shape.name, link->name);
     c->shape.body = link->body;
     c->shape.kind = from->kind;
@@ -218,7 +220,7 @@ static void sort_out(struct reading *r, struct candidates *all, const robot_desc
     all->count = kept;
 }
 
-void touch_find(struct reading *r, const struct elements *e, const int order[MOST_LINKS], robot_description *robot) {
+void touch_find(struct reading *r, struct elements *e, const int order[MOST_LINKS], robot_description *robot) {
     struct candidates all = gather(r, e, order);
     check_supports(r, e, robot);
     sort_out(r, &all, robot);
@@ -226,6 +228,7 @@ void touch_find(struct reading *r, const struct elements *e, const int order[MOS
     for (int i = 0; i < all.count; i++) {
         const robot_shape *shape = &all.list[i].shape;
         if ((i < robot->num_tips || bulk(shape) >= least) && robot->num_shapes < ROBOT_MAX_SHAPES) {
+            e->shape_links[robot->num_shapes] = all.list[i].link;
             robot->shapes[robot->num_shapes++] = *shape;
         }
     }

@@ -183,6 +183,18 @@ START_TEST(no_two_meshes_share_a_copy) {
 }
 END_TEST
 
+/* The box round a mesh claims more than there is: what it reaches into need not be in the way. */
+START_TEST(meshes_that_overlap_at_home_are_excepted) {
+    write_file("src/bot/urdf/counterweight.obj",
+               "v -1.33 -0.05 -0.46\nv -1.23 0.05 -0.36\nv -1.33 0.05 -0.36\nf 1 2 3\n");
+    read_with("collision", "filename='counterweight.obj'", NULL);
+    ck_assert_msg(m.good, "%s", m.good ? "" : m.report.faults[0]);
+    ck_assert(edited_says(m.report.notices, m.report.num_notices, "with shapes taken from meshes"));
+    ck_assert(!m.description.may_meet[0][4]);
+    ck_assert(m.description.may_meet[0][5]);
+}
+END_TEST
+
 int main(void) {
     TCase *cases = tcase_create("mesh");
     tcase_add_checked_fixture(cases, setup, teardown);
@@ -191,6 +203,7 @@ int main(void) {
     tcase_add_loop_test(cases, bad_meshes_are_refused, 0, (int)(sizeof refusals / sizeof refusals[0]));
     tcase_add_test(cases, nothing_is_opened_but_the_mesh);
     tcase_add_test(cases, no_two_meshes_share_a_copy);
+    tcase_add_test(cases, meshes_that_overlap_at_home_are_excepted);
     tcase_add_test(cases, meshes_that_are_only_seen_need_not_be_there);
     return run_suite("mesh", cases);
 }
