@@ -64,6 +64,19 @@ robot_solid robot_solid_of_shape(const robot_shape *shape) {
     return robot_solid_placed(&solid, &shape->pose);
 }
 
+robot_solid robot_solid_at_home(const robot_description *robot, const robot_shape *shape) {
+    robot_solid solid = robot_solid_of_shape(shape);
+    for (int body = shape->body; body > 0; body = robot->bodies[body].parent) {
+        const robot_body *b = &robot->bodies[body];
+        const double half = 0.5 * robot->actuators[body - 1].home;
+        const robot_pose turned = {
+            .rotation = {cos(half), sin(half) * b->axis[0], sin(half) * b->axis[1], sin(half) * b->axis[2]}};
+        solid = robot_solid_placed(&solid, &turned);
+        solid = robot_solid_placed(&solid, &b->joint);
+    }
+    return solid;
+}
+
 /* Axis 0 forward, 1 down, 2 along the sprocket. */
 robot_solid robot_solid_of_belt(const robot_crawler *crawler) {
     robot_solid solid = {.half = {0.5 * crawler->length - crawler->radius, 0, 0.5 * crawler->width},

@@ -26,6 +26,8 @@ typedef struct robot_solid {
 
 /* In the frame that the shape's pose and the crawler's numbers are in. */
 robot_solid robot_solid_of_shape(const robot_shape *shape);
+/* The same in the frame of the base, with all joints at home. */
+robot_solid robot_solid_at_home(const robot_description *robot, const robot_shape *shape);
 robot_solid robot_solid_of_belt(const robot_crawler *crawler);
 
 /* The solid seen from where its frame lies in `pose`. */

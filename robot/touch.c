@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "robot_solid.h"
+
 /* Shapes may reach beyond a belt by this share of its radius and still be the belt. */
 #define BEYOND_BELT 0.05
 
@@ -24,48 +26,22 @@ struct candidates {
     int count;
 };
 
-/* How far a shape reaches from its middle along a unit vector, both in the same frame. */
-static double reach(const robot_shape *shape, const frame *pose, vector along) {
-    const matrix back = matrix_transpose(&pose->axes);
-    const vector v = matrix_apply(&back, along);
-    const double *half = shape->half_size;
-    switch (shape->kind) {
-        case ROBOT_SPHERE:
-            return half[0];
-        case ROBOT_CYLINDER:
-            return half[0] * hypot(v.x, v.y) + half[2] * fabs(v.z);
-        case ROBOT_BOX:
-        default:
-            return half[0] * fabs(v.x) + half[1] * fabs(v.y) + half[2] * fabs(v.z);
-    }
-}
-
-/* Frames of all bodies in the body frame, joints at home. */
-static void home_frames(const robot_description *robot, frame frames[ROBOT_MAX_BODIES]) {
-    frames[0] = frame_identity();
-    for (int b = 1; b < robot->num_bodies; b++) {
-        const robot_body *body = &robot->bodies[b];
-        const frame joint = frame_of(&body->joint);
-        const frame turned = frame_about(vector_of(body->axis), robot->actuators[b - 1].home);
-        const frame moved = frame_multiply(&joint, &turned);
-        frames[b] = frame_multiply(&frames[body->parent], &moved);
-    }
-}
-
-static frame home_pose(const robot_shape *shape, const frame frames[ROBOT_MAX_BODIES]) {
-    const frame pose = frame_of(&shape->pose);
-    return frame_multiply(&frames[shape->body], &pose);
+/* How far a shape reaches from its middle along a unit vector. */
+static double reach(const robot_solid *solid, vector along) {
+    double direction[3];
+    vector_store(along, direction);
+    return robot_solid_half_width(solid, direction);
 }
 
 /* Whether a shape lies within the box round a crawler. */
-static bool is_belt(const robot_shape *shape, const frame *pose, const robot_crawler *crawler) {
+static bool is_belt(const robot_solid *solid, const robot_crawler *crawler) {
     const vector across = vector_of(crawler->axis), up = {0, 0, 1};
     const vector along = vector_cross(across, up);
-    const vector away = vector_subtract(pose->origin, vector_of(crawler->centre));
+    const vector away = vector_subtract(vector_of(solid->centre), vector_of(crawler->centre));
     const double room = BEYOND_BELT * crawler->radius;
-    return fabs(vector_dot(away, along)) + reach(shape, pose, along) <= crawler->length / 2 + room &&
-           fabs(vector_dot(away, across)) + reach(shape, pose, across) <= crawler->width / 2 + room &&
-           fabs(vector_dot(away, up)) + reach(shape, pose, up) <= crawler->radius + room;
+    return fabs(vector_dot(away, along)) + reach(solid, along) <= crawler->length / 2 + room &&
+           fabs(vector_dot(away, across)) + reach(solid, across) <= crawler->width / 2 + room &&
+           fabs(vector_dot(away, up)) + reach(solid, up) <= crawler->radius + room;
 }
 
 /* Whether turning the sprocket leaves a shape as it is. */
@@ -81,14 +57,14 @@ static bool is_round_about(const robot_shape *shape, const robot_body *sprocket)
 }
 
 /* Whether a shape is left out: it belongs to a crawler. */
-static bool belongs_to_belt(struct reading *r, const struct candidate *c, const frame *pose,
+static bool belongs_to_belt(struct reading *r, const struct candidate *c, const robot_solid *solid,
                             const robot_description *robot) {
     const int body = c->shape.body;
     if (body > ROBOT_CRAWLERS) {
         return false;
     }
     for (int i = 0; i < ROBOT_CRAWLERS; i++) {
-        if ((body == 0 || body == i + 1) && is_belt(&c->shape, pose, &robot->crawlers[i])) {
+        if ((body == 0 || body == i + 1) && is_belt(solid, &robot->crawlers[i])) {
             remark(r, c->at, NULL, "lies within the %s crawler; left out, as the crawler's belt takes its place",
                    i == 0 ? "left" : "right");
             return true;
@@ -97,8 +73,7 @@ static bool belongs_to_belt(struct reading *r, const struct candidate *c, const 
     if (is_sprocket(body) && !is_round_about(&c->shape, &robot->bodies[body])) {
         fault(r, c->at, NULL,
               "turns with the sprocket of a crawler and reaches beyond the crawler (length %g, width %g, radius %g m); "
-              "must "
-              "lie within it, be round about the sprocket's axis, or be left out by <no_contact link1=\"%s\"/>",
+              "must lie within it, be round about the sprocket's axis, or be left out by <no_contact link1=\"%s\"/>",
               robot->crawlers[body - 1].length, robot->crawlers[body - 1].width, robot->crawlers[body - 1].radius,
               c->shape.name);
     }
@@ -110,9 +85,9 @@ static double mean_radius(const robot_description *robot) {
 }
 
 /* The robot is to stand on its crawlers when it is put down; the arm may then rest on the ground. */
-static void check_above_ground(struct reading *r, const struct candidate *c, const frame *pose,
+static void check_above_ground(struct reading *r, const struct candidate *c, const robot_solid *solid,
                                const robot_description *robot) {
-    const double lowest = pose->origin.z - reach(&c->shape, pose, (vector){0, 0, 1});
+    const double lowest = solid->centre[2] - reach(solid, (vector){0, 0, 1});
     const bool is_arm = c->shape.body > ROBOT_CRAWLERS;
     if (lowest < -BELOW_GROUND * mean_radius(robot)) {
         fault(r, c->at, NULL,
@@ -204,16 +179,14 @@ static double least_bulk(struct reading *r, const struct elements *e, const stru
 
 /* Leaves out what is a belt; all else must be where it leaves the robot on its crawlers. */
 static void sort_out(struct reading *r, struct candidates *all, const robot_description *robot) {
-    frame frames[ROBOT_MAX_BODIES];
     int kept = 0;
-    home_frames(robot, frames);
     for (int i = 0; i < all->count; i++) {
         const struct candidate *c = &all->list[i];
-        const frame pose = home_pose(&c->shape, frames);
-        if (vector_norm(pose.origin) > 2 * MOST_METRES) {
+        const robot_solid solid = robot_solid_at_home(robot, &c->shape);
+        if (vector_norm(vector_of(solid.centre)) > 2 * MOST_METRES) {
             fault(r, c->at, NULL, "is more than %g m from the base", 2 * MOST_METRES);
-        } else if (i < robot->num_tips || !belongs_to_belt(r, c, &pose, robot)) {
-            check_above_ground(r, c, &pose, robot);
+        } else if (i < robot->num_tips || !belongs_to_belt(r, c, &solid, robot)) {
+            check_above_ground(r, c, &solid, robot);
             all->list[kept++] = *c;
         }
     }
