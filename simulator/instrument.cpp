@@ -38,13 +38,6 @@ double cpu_time() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double kinetic_energy(const btMultiBody &multibody) {
-    GeneralVector velocity = GeneralVector::Zero();
-    const int dofs = base_dofs + multibody.getNumDofs();
-    velocity.head(dofs) = Eigen::Map<const Eigen::VectorXd>(multibody.getVelocityVector(), dofs);
-    return 0.5 * velocity.dot(mass_matrix(multibody) * velocity);
-}
-
 // Name and values of an array of JSON; what follows is up to the caller.
 void print(const char *name, const double *values, int count) {
     std::printf("\"%s\": [", name);

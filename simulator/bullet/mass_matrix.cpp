@@ -101,4 +101,16 @@ GeneralMatrix rigid_inverse(const GeneralMatrix &mass) {
     return inverse;
 }
 
+GeneralVector velocities(const btMultiBody &multibody) {
+    GeneralVector velocity = GeneralVector::Zero();
+    const int dofs = base_dofs + multibody.getNumDofs();
+    velocity.head(dofs) = Eigen::Map<const Eigen::VectorXd>(multibody.getVelocityVector(), dofs);
+    return velocity;
+}
+
+double kinetic_energy(const btMultiBody &multibody) {
+    const GeneralVector velocity = velocities(multibody);
+    return 0.5 * velocity.dot(mass_matrix(multibody) * velocity);
+}
+
 }  // namespace limphome

@@ -30,4 +30,10 @@ GeneralMatrix mass_matrix(const btMultiBody &multibody);
 // All other entries are 0.
 GeneralMatrix rigid_inverse(const GeneralMatrix &mass);
 
+// Those of a multibody; 0 for degrees of freedom that it has not.
+GeneralVector velocities(const btMultiBody &multibody);
+
+// [J]
+double kinetic_energy(const btMultiBody &multibody);
+
 }  // namespace limphome

@@ -153,14 +153,6 @@ void Scene::hold_in_place() {
     robot.set_pose(pose);
 }
 
-double Scene::kinetic_energy() const {
-    const btMultiBody &body = robot.multibody();
-    GeneralVector velocity = GeneralVector::Zero();
-    const int dofs = base_dofs + body.getNumDofs();
-    velocity.head(dofs) = Eigen::Map<const Eigen::VectorXd>(body.getVelocityVector(), dofs);
-    return 0.5 * velocity.dot(mass_matrix(body) * velocity);
-}
-
 // Lets the robot sink in for so long [s]. On uneven ground it rocks over bumps, which hardly anything damps: it is
 // stopped where it is fastest, as it passes its equilibrium there.
 void Scene::sink_in(double duration) {
@@ -176,7 +168,7 @@ void Scene::sink_in(double duration) {
         }
         hold_in_place();
         const double before = energy;
-        energy = kinetic_energy();
+        energy = kinetic_energy(robot.multibody());
         if (energy < before) {
             robot.multibody().clearVelocities();
             energy = 0;

@@ -66,7 +66,6 @@ class Scene {
     void sink_in(double duration);
     Eigen::Vector3d centre_of_pressure() const;
     void hold_in_place();
-    double kinetic_energy() const;
 
     btDefaultCollisionConfiguration configuration_;
     btCollisionDispatcher dispatcher_;

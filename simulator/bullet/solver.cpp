@@ -19,9 +19,7 @@ constexpr double slowest_slip = 1e-5;
 
 void Solver::solve(btMultiBody &multibody, std::vector<JointConstraint> &joints, std::vector<Contact> &contacts,
                    double time_step) {
-    const int dofs = base_dofs + multibody.getNumDofs();
-    free_.setZero();
-    free_.head(dofs) = Eigen::Map<const Eigen::VectorXd>(multibody.getVelocityVector(), dofs);
+    free_ = velocities(multibody);
     // Implicit in time: the spring is taken at the depth that the end of the step will have.
     compliance_ = 1 / (time_step * (ground_.stiffness * time_step + ground_.damping));
     mass_ = mass_matrix(multibody);

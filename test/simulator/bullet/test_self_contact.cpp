@@ -40,11 +40,7 @@ Eigen::Vector3d force(const World &world, bool of_bodies) {
 }
 
 double kinetic_energy(const World &world) {
-    const btMultiBody &multibody = world.robot().multibody();
-    GeneralVector velocity = GeneralVector::Zero();
-    const int dofs = base_dofs + multibody.getNumDofs();
-    velocity.head(dofs) = Eigen::Map<const Eigen::VectorXd>(multibody.getVelocityVector(), dofs);
-    return 0.5 * velocity.dot(mass_matrix(multibody) * velocity);
+    return limphome::kinetic_energy(world.robot().multibody());
 }
 
 // The arm folded and swung over the left crawler, then lowered with all the boom has.
