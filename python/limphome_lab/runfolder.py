@@ -9,7 +9,7 @@ import sys
 from dataclasses import dataclass, fields
 from pathlib import Path
 
-from limphome_lab import command, files, lock, paths
+from limphome_lab import command, describe, files, lock, paths
 from limphome_lab.ending import InputError
 
 CHECKPOINT = re.compile(r"episode_\d{6,}\.lcm")
@@ -180,7 +180,7 @@ def create(out, config, robot, assignments, controller_options=(), anew=False, r
     if not real_time and pace == "real_time":
         launch = f"{command.called('launch')} --arm"
         raise InputError(f"simulator.pace = real_time: the plant would wait for ever to be armed; {launch} arms it")
-    named = ["--robot", robot, *(("--packages", packages) if packages else ())]
+    named = ["--robot", robot, *describe.options(packages)]
     options = [*setting_options(config, assignments), *named, "--check"]
     ask("controller", *options, *controller_options)
     ask("simulator", *options, tell=False)  # of the same robot, so the same notices

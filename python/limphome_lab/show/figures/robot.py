@@ -10,6 +10,14 @@ from limphome_lab.show.figures.outline import FORWARD, LEFT, UP
 POSTURES = 60_000  # of the arm, tried at random for where the tips come to
 CELLS = 60  # along each side of that area
 WIDTH = 7  # of the figure [in]
+CENTRE_OF_MASS = {
+    "marker": "o",
+    "linestyle": "",
+    "markersize": 9,
+    "color": "white",
+    "markeredgecolor": style.RED,
+    "markeredgewidth": 2.5,
+}
 
 
 def draw(robot):
@@ -31,15 +39,7 @@ def draw(robot):
         outline.view(
             axes, parts, across, lambda p, a=across, s=nearest_last: s * p[:, LEFT if a == UP else UP], alpha=0.75
         )
-        axes.plot(
-            *np.array(robot.told["home"]["centre_of_mass"])[[FORWARD, across]],
-            marker="o",
-            markersize=9,
-            color="white",
-            markeredgecolor=style.RED,
-            markeredgewidth=2.5,
-            zorder=6,
-        )
+        axes.plot(*np.array(robot.told["home"]["centre_of_mass"])[[FORWARD, across]], **CENTRE_OF_MASS, zorder=6)
         axes.set(xlim=(low[FORWARD], high[FORWARD]), ylim=(low[across], high[across]))
         _joints(axes, robot, frames, across)
     outline.ground(side)
@@ -97,17 +97,7 @@ def _supports(above, robot, frames):
 
 def _legend(figure, shades):
     marks = [
-        plt.Line2D(
-            [],
-            [],
-            marker="o",
-            linestyle="",
-            color="white",
-            markeredgecolor=style.RED,
-            markeredgewidth=2.5,
-            markersize=9,
-            label="centre of mass",
-        ),
+        plt.Line2D([], [], **CENTRE_OF_MASS, label="centre of mass"),
         plt.Line2D([], [], marker="x", linestyle="--", color=style.BLUE, label="supports"),
         outline.Polygon([(0, 0)], facecolor=style.GREEN, alpha=0.3, label="reach of the tip"),
     ]
