@@ -1,9 +1,9 @@
 """Renews the hashes: .venv/bin/python scripts/pin.py
 
 Writes requirements*.txt beside it, from which pip installs nothing but files with the hashes told there: all that the
-packages of requirements.in, of `study` in pyproject.toml and of each line of requirements-engines.in need, in the
-versions that pip chooses today, with the hashes of all files of those versions, for any processor and Python. To take a
-newer version of a package, change its line and run this; then run scripts/test.
+packages of requirements.in and of each set in pyproject.toml (optional-dependencies and dependency-groups) need, in the
+versions that pip chooses today, with the hashes of all files of those versions, for any processor and Python. All sets
+share an environment. To take a newer version of a package, change its line and run this; then run scripts/test.
 """
 
 import json
@@ -60,13 +60,13 @@ def write(file, packages, earlier):
 
 
 def main():
-    project = tomllib.loads((HERE.parent / "pyproject.toml").read_text())["project"]
-    base, study = lines_of("requirements.in"), project["optional-dependencies"]["study"]
-    together = resolve([*base, *study], {})  # they share an environment
+    project = tomllib.loads((HERE.parent / "pyproject.toml").read_text())
+    base = lines_of("requirements.in")
+    sets = project["project"]["optional-dependencies"] | project["dependency-groups"]
+    together = resolve([*base, *(package for packages in sets.values() for package in packages)], {})
     write("requirements.txt", base, together)
-    write("requirements-study.txt", study, together)
-    for engine in lines_of("requirements-engines.in"):
-        write(f"requirements-{engine.split('==')[0]}.txt", [engine], together)
+    for name, packages in sets.items():
+        write(f"requirements-{name}.txt", packages, together)
 
 
 if __name__ == "__main__":

@@ -5,14 +5,31 @@ from limphome import (
     decision_t,
     episode_t,
     ground_truth_t,
+    operate_t,
+    pace_t,
     planner_t,
     policy_t,
+    pose_t,
     reset_request_t,
     robot_state_t,
     status_t,
     velocity_command_t,
 )
-from limphome_lab.channels import ARM, COMMAND, DECISION, EPISODE, PLANNER, POLICY, RESET, STATE, STATUS, TRUTH
+from limphome_lab.channels import (
+    ARM,
+    COMMAND,
+    DECISION,
+    EPISODE,
+    OPERATE,
+    PACE,
+    PLANNER,
+    POLICY,
+    POSE,
+    RESET,
+    STATE,
+    STATUS,
+    TRUTH,
+)
 from limphome_lab.recording import read_log
 
 TYPES = {
@@ -21,6 +38,9 @@ TYPES = {
     RESET: reset_request_t,
     ARM: arm_request_t,
     TRUTH: ground_truth_t,
+    POSE: pose_t,
+    PACE: pace_t,
+    OPERATE: operate_t,
     DECISION: decision_t,
     EPISODE: episode_t,
     POLICY: policy_t,

@@ -14,8 +14,10 @@ LOCKED = sorted(SCRIPTS.glob("requirements*.txt"))
 def asked_for():
     """The pins that people write."""
     lines = [line for file in SCRIPTS.glob("*.in") for line in file.read_text().splitlines()]
-    study = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]["study"]
-    return [line for line in [*lines, *study] if line and not line.startswith("#")]
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    sets = project["project"]["optional-dependencies"] | project["dependency-groups"]
+    lines += [package for packages in sets.values() for package in packages]
+    return [line for line in lines if line and not line.startswith("#")]
 
 
 def locked(file):
