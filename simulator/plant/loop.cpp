@@ -1,5 +1,7 @@
 #include "plant/loop.h"
 
+#include <limphome_channels.h>
+
 #include <algorithm>
 #include <cinttypes>
 #include <cmath>
@@ -270,7 +272,8 @@ double Loop::tell() {
     link_.pace().pass(now);
     if (link_.pace().unheeded() && !told_unheeded_) {
         told_unheeded_ = true;
-        std::fprintf(stderr, "LIMPHOME_PACE is not heeded: a plant in real time can be neither paused nor slowed\n");
+        std::fputs(LIMPHOME_CHANNEL_PACE " is not heeded: a plant in real time can be neither paused nor slowed\n",
+                   stderr);
     }
     if (link_.pace().told() != pace_) {  // at once, as the controller waits for what comes next
         pace_ = link_.pace().told();
