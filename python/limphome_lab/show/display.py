@@ -2,8 +2,8 @@
 
 A window on a run is opened by a program that has joined the run's network namespace. A display's socket in the file
 system is reached from there, but not one in the abstract name space, nor one on the loopback, as `ssh -X` makes it.
-Such a display gets a socket of the same address inside, and a process outside that passes on what comes in: neither DISPLAY
-nor the authority changes, and nothing else of the outer network is to be had.
+Such a display gets a socket of the same address inside, and a process outside that passes on what comes in: neither
+DISPLAY nor the authority changes, and nothing else of the outer network is to be had.
 """
 
 import ctypes
