@@ -41,6 +41,7 @@ class Experiment:
             [f"{key}={value}" for key, value in (set or {}).items()],
             packages=packages,
         )
+        self.folder.leave()
         settings = self.folder.settings()
         if settings["simulator"]["reset"] != "initial_pose":
             raise InputError("simulator.reset = where_it_is: an environment has to be put back; it takes initial_pose")
@@ -62,7 +63,6 @@ class Session:
         self._experiment = experiment
         self._line = line
         self._parts = contextlib.ExitStack()
-        self.result = WAITING
         try:
             self._start(experiment.seed if seed is None else seed)
         except BaseException:
@@ -77,12 +77,11 @@ class Session:
         self._task = Task(self._experiment.folder.config, self._experiment.folder.robot, self._plant.url, self._line)
         self._parts.callback(self._task.close)
         self.seed = seed
-        self._task.reset(1)
+        self._put_back(1)
         self.wait()
         self.num_inputs = self._task.num_inputs
         self.num_actions = self._task.num_actions
-        self._episode = 0
-        self.result = WAITING
+        self._episode = 0  # none has been handed out
 
     def begin(self, seed: int | None = None, put_back: bool = False) -> None:
         """Asks for the next episode: where the robot stands, where the last one ended and the task does not ask for
