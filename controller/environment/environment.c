@@ -34,7 +34,7 @@ typedef struct place {
     float heading_error;                /* (-pi, pi] [rad] */
 } place;
 
-/* What a state tells, by name; `e`, `seen` and `at` are in scope. */
+/* What a state tells, by name; `e`, `seen`, `ended` and `at` are in scope. */
 #define VALUES(VALUE)                                                                                   \
     VALUE(reward, lh_reward_total(&seen->reward))                                                       \
     VALUE(reward_motion, seen->reward.motion)                                                           \
@@ -131,8 +131,8 @@ void environment_act(environment *e, int32_t action) {
     plant_link_command(&e->link, &e->state, velocity);
 }
 
-static void fill(const environment *e, bool ended, const place *at, float *inputs, double *values) {
-    const lh_observed *seen = &e->observed;
+static void fill(const environment *e, const lh_observed *seen, bool ended, const place *at, float *inputs,
+                 double *values) {
     memcpy(inputs, seen->inputs, (size_t)seen->num_inputs * sizeof *inputs);
     if (e->line) {
         float *more = inputs + seen->num_inputs;
@@ -200,7 +200,7 @@ static int take_in(environment *e, const plant_state *taken, float *inputs, doub
     }
     const bool ended = e->observed.outcome != LH_OUTCOME_NONE;
     const place at = place_in(ended ? &before : &e->task.episode, &e->observed.pose);
-    fill(e, ended, &at, inputs, values);
+    fill(e, &e->observed, ended, &at, inputs, values);
     return fault ? ENVIRONMENT_FAULT : result_of(e->observed.outcome);
 }
 
@@ -223,8 +223,10 @@ int environment_wait(environment *e, double timeout, float *inputs, double *valu
 bool environment_next(const environment *e, float *inputs, double *values) {
     const bool goes_on = e->observed.outcome != LH_OUTCOME_NONE && !e->observed.reset;
     if (goes_on) {
-        const place at = place_in(&e->task.episode, &e->observed.pose);
-        fill(e, false, &at, inputs, values);
+        lh_observed first = e->observed;
+        first.reward = (lh_reward){0}; /* of the step before */
+        const place at = place_in(&e->task.episode, &first.pose);
+        fill(e, &first, false, &at, inputs, values);
     }
     return goes_on;
 }

@@ -81,7 +81,8 @@ class Session:
         self.wait()
         self.num_inputs = self._task.num_inputs
         self.num_actions = self._task.num_actions
-        self._episode = 0  # none has been handed out
+        self._episode = 0
+        self.result = WAITING  # no episode has been asked for
 
     def begin(self, seed: int | None = None, put_back: bool = False) -> None:
         """Asks for the next episode: where the robot stands, where the last one ended and the task does not ask for
