@@ -80,6 +80,7 @@ class Progress:
             (f"episode {count}", f"{recent}, {factor:.0f}x real time"),
             (f"episode {count}", recent),
             (count, recent),
+            (count, f"{taken}; {goals:.0%} goals"),
         ):
             if len(name) + len(rest) + LEAST_BAR + len(" [] ") <= width:
                 return self._with_bar(name, rest, width)

@@ -41,7 +41,7 @@ def test_a_line_fits_80_columns_and_tells_the_time_left(total, reward, seconds):
     shown = progress.Progress(total, stream=io.StringIO())
     shown.update([replace(episode(number), reward=reward) for number in range(1, 61)])
     text = shown.text(shown.began + seconds)
-    assert len(text) < 80 and " left" in text and "last 50" in text
+    assert len(text) < 80 and " left" in text and "50% goals" in text
 
 
 def test_a_narrow_terminal_still_gets_count_and_time_left():
