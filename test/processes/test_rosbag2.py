@@ -1,16 +1,14 @@
 """A recording as a bag of ROS 2, read back by a reader of bags."""
 
 import numpy as np
-import pytest
+from rosbags.highlevel import AnyReader
 
-rosbags = pytest.importorskip("rosbags.highlevel")
-
-from conftest import train  # noqa: E402
-from limphome_lab.channels import STATE  # noqa: E402
-from limphome_lab.export import rosbag2  # noqa: E402
-from limphome_lab.messages import recorded  # noqa: E402
-from limphome_lab.robot import read, rotation_of  # noqa: E402
-from limphome_lab.runfolder import RunFolder  # noqa: E402
+from conftest import train
+from limphome_lab.channels import STATE
+from limphome_lab.export import rosbag2
+from limphome_lab.messages import recorded
+from limphome_lab.robot import read, rotation_of
+from limphome_lab.runfolder import RunFolder
 
 
 def test_bag_tells_each_state_once_at_a_time_that_never_runs_back(tmp_path):
@@ -21,7 +19,7 @@ def test_bag_tells_each_state_once_at_a_time_that_never_runs_back(tmp_path):
     assert sorted(file.name for file in bag.iterdir()) == ["metadata.yaml", "rosbag2.db3"]
     states = {(state.session, state.seq): state for _, state in recorded(run.messages, STATE)}
     robot = read(run.robot)
-    with rosbags.AnyReader([bag], default_typestore=rosbag2.ROS) as reader:
+    with AnyReader([bag], default_typestore=rosbag2.ROS) as reader:
         assert {each.topic: each.msgcount for each in reader.connections} == dict.fromkeys(rosbag2.TOPICS, len(states))
         messages = {topic: [] for topic in rosbag2.TOPICS}
         times = []
