@@ -1,6 +1,6 @@
 """A learned policy as C: policy.h and robot.h, which the library on a microcontroller takes as they are."""
 
-from limphome_lab import describe, runfolder
+from limphome_lab import runfolder
 
 FILES = ("robot.h", "policy.h")
 

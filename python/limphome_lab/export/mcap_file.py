@@ -1,4 +1,4 @@
-"""A recording as MCAP: our messages as JSON on topics named as their channels, and what a 3D panel makes a picture of."""
+"""A recording as MCAP: our messages as JSON on topics named as their channels, and what a 3D panel shows."""
 
 import json
 
@@ -84,5 +84,5 @@ class Picture:
         elif channel == DECISION and message.step == 0 and self._states:
             yield "/goal", goal(time, message, self._states[-1])
         elif channel == EPISODE:
-            yield "/path", path(time, self._states)
+            yield "/path", path(time, [state for state in self._states if state.session == message.session])
             self._states = self._states[-1:]  # where one ends, the next may begin

@@ -47,9 +47,7 @@ class Scene:
         along = np.cross(across, (0, 0, 1)) * (length / 2 - radius)
         lying = quaternion.product(facing, quaternion.about((1, 0, 0), -np.pi / 2))  # z becomes the axis
         shade = self._shade(name, 0, failed)
-        box = foxglove.solid(
-            foxglove.pose(crawler["centre"], facing), (length - 2 * radius, width, 2 * radius), shade
-        )
+        box = foxglove.solid(foxglove.pose(crawler["centre"], facing), (length - 2 * radius, width, 2 * radius), shade)
         ends = [
             foxglove.cylinder(foxglove.pose(crawler["centre"] + end, lying), (2 * radius, 2 * radius, width), shade)
             for end in (along, -along)

@@ -33,13 +33,15 @@ GRAVITY = 9.81  # [m/s^2]
 
 
 class RobotScene:
-    """`scene`: server.scene; `robot`: of limphome_lab.robot; `offset` [3] of its plant's world in the page's."""
+    """`scene`: server.scene; `robot`: of limphome_lab.robot; `offset` [3] and `turn` (w, x, y, z) of its plant's world
+    in the page's."""
 
-    def __init__(self, scene, robot, name="robot", offset=(0, 0, 0)):
+    def __init__(self, scene, robot, name="robot", offset=(0, 0, 0), turn=(1, 0, 0, 0)):
         self.scene, self.robot, self.name = scene, robot, name
         self.frame = None  # shown last
         self.shown = dict.fromkeys(LAYERS, True)
-        self._root = scene.add_frame(f"/{name}", show_axes=False, position=np.asarray(offset, dtype=float))
+        self._root = scene.add_frame(f"/{name}", show_axes=False)
+        self.place(offset, turn)
         self._bodies = [
             scene.add_frame(self._path(f"body{index}"), show_axes=False) for index in range(len(robot.bodies))
         ]
@@ -52,6 +54,11 @@ class RobotScene:
         self._layers = {}
         self._goal = None
         self._add_layers()
+
+    def place(self, offset, turn=(1, 0, 0, 0)):
+        """Puts its plant's world elsewhere in the page's."""
+        self._root.position = np.asarray(offset, dtype=float)
+        self._root.wxyz = np.asarray(turn, dtype=float)
 
     def show(self, frame):
         """Moves all of it to a frame."""
