@@ -1,8 +1,8 @@
 """What a viewer hears of a running pair, and says to it: python -m limphome_lab.view.feed URL.
 
-A pair's network has no way out, and a browser none in. So this process alone goes into that network; it writes the newest
-messages to stdout some thirty times a second and takes on stdin what is to be said, a message each in the same form:
-length of the channel's name, of the data (network order), name, data. It ends with stdin, and with its parent.
+A pair's network has no way out, and a browser none in. So this process alone goes into that network; it writes the
+newest messages to stdout some thirty times a second and takes on stdin what is to be said, a message each in the same
+form: length of the channel's name, of the data (network order), name, data. It ends with stdin, and so with its parent.
 """
 
 import contextlib
@@ -68,7 +68,9 @@ class Parser:
             end = HEADER.size + name + size
             if len(self._bytes) < end:
                 break
-            found.append((self._bytes[HEADER.size : HEADER.size + name].decode(), self._bytes[HEADER.size + name : end]))
+            found.append(
+                (self._bytes[HEADER.size : HEADER.size + name].decode(), self._bytes[HEADER.size + name : end])
+            )
             self._bytes = self._bytes[end:]
         return found
 

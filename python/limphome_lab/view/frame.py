@@ -33,20 +33,15 @@ def frame_of(message, truth=None):
         position=np.array(message.position),
         orientation=np.array(message.orientation),
         actuator_position=np.array(message.actuator_position[:used]),
-        health=octets(message.actuator_health)[:used],
+        health=np.array(message.actuator_health[:used]),
     )
     if getattr(message, "has_truth", 0):
         truth = message.truth
     if truth is not None:
-        on_ground = octets(truth.contact_with)[: truth.num_contacts] == ground_truth_t.GROUND
+        on_ground = np.array(truth.contact_with[: truth.num_contacts]) == ground_truth_t.GROUND
         frame.centre_of_mass = np.array(truth.centre_of_mass)
         frame.contact_point = np.array(truth.contact_point)[: truth.num_contacts][on_ground]
         frame.contact_force = np.array(truth.contact_force)[: truth.num_contacts][on_ground]
         frame.support = np.array(truth.support)[: truth.num_support]
         frame.margin = truth.stability_margin
     return frame
-
-
-def octets(values):
-    """[n] of an array of int8_t, which LCM decodes as bytes."""
-    return np.frombuffer(values, dtype=np.int8)

@@ -40,7 +40,7 @@ class Listener:
         self._sockets = [_open(group, int(port), channels, room) for channels, room in buffers]
 
     def newest(self):
-        """[(channel, encoded message)] in the order they came: of OFTEN and LIMPHOME_POSE the newest, of the others all."""
+        """[(channel, encoded message)]: of OFTEN and LIMPHOME_POSE the newest, of the others all in order."""
         found = []
         for each in self._sockets:
             found += _drain(each)
@@ -63,9 +63,7 @@ def _open(group, port, channels, room):
     bus.setsockopt(socket.IPPROTO_IP, IP_MULTICAST_ALL, 0)
     _attach(bus, _filter(channels))
     bus.bind((group, port))
-    bus.setsockopt(
-        socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, socket.inet_aton(group) + socket.inet_aton("0.0.0.0")
-    )
+    bus.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, socket.inet_aton(group) + socket.inet_aton("0.0.0.0"))
     bus.setblocking(False)
     return bus
 

@@ -8,6 +8,7 @@ import numpy as np
 from viser import transforms
 
 from limphome import robot_state_t
+from limphome_lab.robot import rotation_of
 from limphome_lab.show.figures import outline, style
 from limphome_lab.view.belt import Belt
 
@@ -28,37 +29,44 @@ JUMP = 0.5  # [m] between two frames: the robot was put elsewhere, and a new tra
 ABOVE_GROUND = 0.012  # [m] at which flat things are drawn
 MOST_CORNERS = 24  # of the support polygon, as in ground_truth_t
 
+GOAL_PIECES = 20  # that follow the ground
+GLASS = 0.35  # opacity
+
 LAYERS = ("trail", "goal line", "support polygon", "centre of mass", "contact forces")
 GRAVITY = 9.81  # [m/s^2]
 
 
 class RobotScene:
-    """`scene`: server.scene; `robot`: of limphome_lab.robot; `offset` [3] and `turn` (w, x, y, z) of its plant's world
-    in the page's."""
+    """`scene`: server.scene; `robot`: of limphome_lab.robot; `offset` [3] of its plant's world in the page's."""
 
-    def __init__(self, scene, robot, name="robot", offset=(0, 0, 0), turn=(1, 0, 0, 0)):
+    def __init__(self, scene, robot, name="robot", offset=(0, 0, 0)):
         self.scene, self.robot, self.name = scene, robot, name
         self.frame = None  # shown last
         self.shown = dict.fromkeys(LAYERS, True)
+        self.follow = False  # keeps the robot at the offset and moves the world under it, so that the eye can stay
         self._root = scene.add_frame(f"/{name}", show_axes=False)
-        self.place(offset, turn)
+        self.place(offset)
         self._bodies = [
             scene.add_frame(self._path(f"body{index}"), show_axes=False) for index in range(len(robot.bodies))
         ]
+        self._solids = []
         self._coloured = {}  # {actuator: [(handle, its colour where all is well)]}
         for index, shape in enumerate(robot.told["shapes"]):
             self._add_shape(index, shape)
         self._belts = [self._add_belt(*each) for each in enumerate(robot.told["crawlers"])]
         self._labels = {}  # {actuator: its "failed"}
         self._trail = []
-        self._layers = {}
-        self._goal = None
         self._add_layers()
 
-    def place(self, offset, turn=(1, 0, 0, 0)):
-        """Puts its plant's world elsewhere in the page's."""
-        self._root.position = np.asarray(offset, dtype=float)
+    def place(self, offset, turn=(1, 0, 0, 0), origin=(0, 0, 0)):
+        """Puts `origin` [3] of its plant's world at `offset` in the page's, turned by `turn` (w, x, y, z)."""
+        self._offset, self._turn, self._origin = np.asarray(offset, dtype=float), rotation_of(turn), np.asarray(origin)
         self._root.wxyz = np.asarray(turn, dtype=float)
+        self._place_root()
+
+    def _place_root(self):
+        at = self.frame.position * (1, 1, 0) if self.follow and self.frame is not None else self._origin
+        self._root.position = self._offset - self._turn @ at
 
     def show(self, frame):
         """Moves all of it to a frame."""
@@ -66,6 +74,7 @@ class RobotScene:
         if jumped or frame.session != self.frame.session:
             self._trail = []
         self.frame = frame
+        self._place_root()
         for handle, pose in zip(
             self._bodies,
             self.robot.frames(frame.actuator_position, frame.position, frame.orientation),
@@ -81,12 +90,13 @@ class RobotScene:
         self._show_centre_of_mass()
         self._show_forces()
 
-    def set_goal(self, point, direction, half_width=1.0):
-        """The goal line goes through `point` [x, y], across `direction` [rad from the world's x axis]."""
-        x, y = point
-        across = half_width * np.array([-np.sin(direction), np.cos(direction), 0])
-        middle = np.array([x, y, self._ground_level() + ABOVE_GROUND])
-        self._goal.points = np.array([[middle - across, middle + across]])
+    def set_goal(self, point, direction, height=lambda x, y: 0.0, half_width=1.0):
+        """The goal line goes through `point` [x, y], across `direction` [rad from the world's x axis], on the ground of
+        that `height`."""
+        across = np.array([-np.sin(direction), np.cos(direction)])
+        posts = [np.asarray(point) + side * across for side in np.linspace(-half_width, half_width, GOAL_PIECES + 1)]
+        line = np.array([[x, y, height(x, y) + ABOVE_GROUND] for x, y in posts])
+        self._goal.points = np.stack([line[:-1], line[1:]], axis=1)
         self._goal.visible = self.shown["goal line"]
 
     def clear_trail(self):
@@ -98,6 +108,11 @@ class RobotScene:
         self.shown[layer] = shown
         for handle in self._layers[layer]:
             handle.visible = shown
+
+    def set_glass(self, glass):
+        """Whether what lies behind the robot is seen through it."""
+        for handle in self._solids:
+            handle.opacity = GLASS if glass else None
 
     def remove(self):
         self._root.remove()
@@ -118,7 +133,8 @@ class RobotScene:
         else:
             handle = self.scene.add_icosphere(path, radius=x, **placed)
         if shape["body"] > 0:
-            self._coloured.setdefault(shape["body"] - 1, []).append((handle, "color", colour))
+            self._coloured.setdefault(shape["body"] - 1, []).append((handle, colour))
+        self._solids.append(handle)
 
     def _add_belt(self, index, crawler):
         belt = Belt(crawler)
@@ -135,14 +151,15 @@ class RobotScene:
             flat_shading=True,
             lod="off",
         )
-        self._coloured.setdefault(index, []).append((body, "color", outline.CRAWLER))
+        self._coloured.setdefault(index, []).append((body, outline.CRAWLER))
+        self._solids += [body, grousers]
         return belt, grousers
 
     def _tell_health(self, health):
         for actuator, state in enumerate(health):
             failed = state == robot_state_t.FAILED
-            for handle, attribute, colour in self._coloured.get(actuator, []):
-                setattr(handle, attribute, rgb(style.RED if failed else colour))
+            for handle, colour in self._coloured.get(actuator, []):
+                handle.color = rgb(style.RED if failed else colour)
             if failed and actuator not in self._labels:
                 self._labels[actuator] = self._add_label(actuator)
             if actuator in self._labels:

@@ -1,7 +1,7 @@
 """A page of viser on the loopback that only who was given its address can open.
 
-Whoever opens the page can steer the robot. Other users of this machine can reach its loopback, and so can, by way of the
-browser, pages from elsewhere (DNS rebinding). So each address holds a secret word, and requests must come for the
+Whoever opens the page can steer the robot. Other users of this machine can reach its loopback, and so can, by way of
+the browser, pages from elsewhere (DNS rebinding). So each address holds a secret word, and requests must come for the
 loopback by name and from the page itself. docs/security.md.
 """
 
