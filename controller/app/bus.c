@@ -72,9 +72,7 @@ static void receive_status(const lcm_recv_buf_t *buffer, const char *channel, vo
         if (may_record(&b->statuses)) {
             recording_add(b->recording, channel, buffer->data, size);
         }
-        if (status.condition == LIMPHOME_STATUS_T_FAULT) {
-            b->listener.fault(b->listener.user, status.session);
-        }
+        b->listener.status(b->listener.user, &status);
     }
 }
 

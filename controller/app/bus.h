@@ -22,7 +22,7 @@
 typedef struct bus_listener {
     void (*state)(void *user, const limphome_robot_state_t *state);
     bool (*operate)(void *user, const limphome_operate_t *message); /* whether it is obeyed, and so recorded */
-    void (*fault)(void *user, int64_t session); /* the plant tells that `session` has ended by a fault */
+    void (*status)(void *user, const limphome_status_t *status);    /* of the plant */
     void *user;
 } bus_listener;
 

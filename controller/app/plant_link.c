@@ -85,9 +85,16 @@ static void on_state(void *user, const limphome_robot_state_t *state) {
     }
 }
 
-static void on_fault(void *user, int64_t session) {
+/* What the plant tells beside its states: that a session has ended without our asking, that a person holds it up. */
+static void on_status(void *user, const limphome_status_t *status) {
     plant_link *l = user;
-    session_over(&l->session, session);
+    if (status->condition == LIMPHOME_STATUS_T_FAULT) {
+        session_over(&l->session, status->session, SESSION_FAULTED);
+    } else if (status->reason == LIMPHOME_STATUS_T_BEGUN_ANEW) {
+        session_over(&l->session, status->session, SESSION_ENDED);
+    } else if (status->reason == LIMPHOME_STATUS_T_PACED && status->session == l->session.session) {
+        l->paced = bus_now();
+    }
 }
 
 static void count_operate(limphome_status_t *counts, operator_verdict verdict) {
@@ -124,7 +131,7 @@ static bool on_operate(void *user, const limphome_operate_t *message) {
 
 bool plant_link_open(plant_link *l, const char *url, const settings *s, recording *log, char error[ERROR_LENGTH]) {
     memset(l, 0, sizeof *l);
-    const bus_listener listener = {.state = on_state, .operate = on_operate, .fault = on_fault, .user = l};
+    const bus_listener listener = {.state = on_state, .operate = on_operate, .status = on_status, .user = l};
     int64_t seed;
     if (!bus_draw(&seed, error) || !bus_open(&l->bus, url, listener, log, error)) {
         return false;

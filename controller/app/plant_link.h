@@ -33,6 +33,7 @@ typedef struct plant_link {
     double heard;   /* from a plant at all */
     double denied;  /* from a plant that obeys another */
     double invalid; /* that is no state to decide upon */
+    double paced;   /* from our plant, that a person holds it up */
 } plant_link;
 
 /* Joins the bus at `url` and records in `log`. False, with the reason in `error` and nothing left open, on failure. The

@@ -259,7 +259,7 @@ static const char *cause(session_break broken) {
         case SESSION_TAKEN:
             return "another controller has taken the plant over";
         case SESSION_ENDED:
-            return "the plant has started anew";
+            return "the plant has begun anew";
         case SESSION_MISPLACED:
             return "the plant has obeyed something else";
         case SESSION_UNBROKEN:

@@ -3,6 +3,7 @@
 #include <math.h>
 
 static const double usual_pause = 1; /* between two looks [s]; a decision takes milliseconds */
+static const double paced_lasts = 3; /* a plant that is held up says so each second [s] */
 
 static const char *const words[TROUBLE_KINDS] = {
     [LIMPHOME_STATUS_T_NO_PLANT] = "no plant is heard; is one running on this network?",
@@ -14,6 +15,7 @@ static const char *const words[TROUBLE_KINDS] = {
     [LIMPHOME_STATUS_T_FLOODED] = "more messages come than can be looked at",
     [LIMPHOME_STATUS_T_OPERATOR_SILENT] =
         "the operator who had the robot by hand is silent; holding still until one takes it or gives it to the learner",
+    [LIMPHOME_STATUS_T_PACED] = "the plant is held up by a person at a viewer",
 };
 
 void trouble_init(trouble *t, const settings *s, double now) {
@@ -78,7 +80,10 @@ double trouble_look(trouble *t, const plant_link *l, double now) {
         t->useful += pause;
     }
     look_for_flood(t, l->bus.counts.overruns, now);
-    if (now - t->useful >= t->timeout) {
+    if (l->paced > 0 && now - l->paced < paced_lasts && now - t->useful >= t->timeout) {
+        t->useful = now - t->timeout;
+        set_reason(t, LIMPHOME_STATUS_T_PACED, now);
+    } else if (now - t->useful >= t->timeout) {
         set_reason(t, cause(t, l, now), now);
     } else if (!rests(t)) {
         set_reason(t, now - t->flooded < usual_pause ? LIMPHOME_STATUS_T_FLOODED : LIMPHOME_STATUS_T_NONE, now);
