@@ -21,8 +21,8 @@
  */
 typedef struct bus_listener {
     void (*state)(void *user, const limphome_robot_state_t *state);
-    bool (*operate)(void *user, const limphome_operate_t *message); /* whether it is obeyed, and so recorded */
     void (*status)(void *user, const limphome_status_t *status);    /* of the plant */
+    bool (*operate)(void *user, const limphome_operate_t *message); /* whether it is obeyed, and so recorded */
     void *user;
 } bus_listener;
 

@@ -131,7 +131,7 @@ static bool on_operate(void *user, const limphome_operate_t *message) {
 
 bool plant_link_open(plant_link *l, const char *url, const settings *s, recording *log, char error[ERROR_LENGTH]) {
     memset(l, 0, sizeof *l);
-    const bus_listener listener = {.state = on_state, .operate = on_operate, .status = on_status, .user = l};
+    const bus_listener listener = {.state = on_state, .status = on_status, .operate = on_operate, .user = l};
     int64_t seed;
     if (!bus_draw(&seed, error) || !bus_open(&l->bus, url, listener, log, error)) {
         return false;

@@ -13,9 +13,9 @@ static const char *const words[TROUBLE_KINDS] = {
     [LIMPHOME_STATUS_T_NOT_ARMED] = "the plant is not armed; holding still",
     [LIMPHOME_STATUS_T_TUMBLED] = "the robot has tumbled and cannot be carried back; holding still until it is righted",
     [LIMPHOME_STATUS_T_FLOODED] = "more messages come than can be looked at",
+    [LIMPHOME_STATUS_T_PACED] = "the plant is held up by a person at a viewer",
     [LIMPHOME_STATUS_T_OPERATOR_SILENT] =
         "the operator who had the robot by hand is silent; holding still until one takes it or gives it to the learner",
-    [LIMPHOME_STATUS_T_PACED] = "the plant is held up by a person at a viewer",
 };
 
 void trouble_init(trouble *t, const settings *s, double now) {

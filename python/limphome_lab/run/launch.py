@@ -1,5 +1,6 @@
 """Command launch: both processes in real time until Ctrl-C, to watch the robot learn or drive once it is armed."""
 
+import shlex
 import sys
 import time
 
@@ -26,6 +27,12 @@ def parse_arguments():
     parser.add_argument("--policy", metavar="RUN", help="drive with the policy of this run instead of learning")
     parser.add_argument(
         "--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="one setting; repeatable"
+    )
+    parser.add_argument(
+        "--driver",
+        metavar="COMMAND",
+        help="the program that drives a real robot, in place of the simulator; it is given --config, --robot and "
+        "--lcm-url beside its own words",
     )
     parser.add_argument("--arm", action="store_true", help="arm the robot right away, without a key")
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
@@ -65,7 +72,7 @@ def tell(text):
     print(text, file=sys.stderr, flush=True)
 
 
-def launch(folder, url, options, arm):
+def launch(folder, url, options, arm, driver=None):
     from limphome_lab import robot  # these are there once all is set up, and --help before
     from limphome_lab.run.arming import ARMS, Keys, Operator
     from limphome_lab.run.hand import Hand, HandKeys, words
@@ -73,7 +80,7 @@ def launch(folder, url, options, arm):
     tail = runfolder.EpisodeTail(folder.episodes)
     by_hand = words(robot.read(folder.robot).actuators)
     with (
-        Pair(folder, url, options) as pair,
+        Pair(folder, url, options, driver) as pair,
         Keys() as keys,
         Operator(url, tell, arm) as operator,
         Hand(url, tell) as hand,
@@ -107,7 +114,7 @@ def main():
     url = network.enter(args.network)
     raise_on_signals()
     folder, options = make_folder(args)
-    launch(folder, url, options, args.arm)
+    launch(folder, url, options, args.arm, shlex.split(args.driver) if args.driver else None)
     return 0
 
 
