@@ -9,6 +9,7 @@ from limphome_lab.run.average import average_policy
 from limphome_lab.run.manifest import EVALUATION, Part, begin_manifest, write_manifest
 from limphome_lab.run.pair import Pair
 from limphome_lab.run.processes import raise_on_signals
+from limphome_lab.run.viewing import Viewing, add_argument
 from limphome_lab.sealed import seal
 from limphome_lab.show.progress import Progress
 from limphome_lab.show.summary import summarise, table
@@ -46,6 +47,7 @@ def parse_arguments():
     parser.add_argument("--out", metavar="DIR", help="run folder to make; default RUN/evaluation/, made anew")
     parser.add_argument("--json", action="store_true", help="print JSON instead of a table")
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
+    add_argument(parser)
     return parser.parse_args()
 
 
@@ -81,6 +83,13 @@ def evaluate(folder, policy, url):
 @with_exit_code
 def main():
     args = parse_arguments()
+    with Viewing(args.view) as viewing:
+        run(args)
+        viewing.linger()
+    return 0
+
+
+def run(args):
     url = network.enter(args.network)
     raise_on_signals()
     trained = runfolder.existing(args.run, "policy")
@@ -90,8 +99,7 @@ def main():
     if average is not None:
         files.replace(folder.policy, average)
     summary = evaluate(folder, trained.policy if average is None else folder.policy, url)
-    print(json.dumps(summary, indent=2) if args.json else table(summary))
-    return 0
+    print(json.dumps(summary, indent=2) if args.json else table(summary), flush=True)
 
 
 if __name__ == "__main__":

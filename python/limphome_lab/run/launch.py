@@ -7,6 +7,7 @@ from limphome_lab import command, network, paths, runfolder
 from limphome_lab.ending import with_exit_code
 from limphome_lab.run.pair import Pair
 from limphome_lab.run.processes import raise_on_signals
+from limphome_lab.run.viewing import Viewing, add_argument
 
 POLL_S = 0.2
 UNTIL_STOPPED = 1_000_000  # episodes
@@ -28,6 +29,7 @@ def parse_arguments():
     )
     parser.add_argument("--arm", action="store_true", help="arm the robot right away, without a key")
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
+    add_argument(parser)
     return parser.parse_args()
 
 
@@ -89,10 +91,11 @@ def launch(folder, url, options, arm):
 @with_exit_code
 def main():
     args = parse_arguments()
-    url = network.enter(args.network)
-    raise_on_signals()
-    folder, options = make_folder(args)
-    launch(folder, url, options, args.arm)
+    with Viewing(args.view):
+        url = network.enter(args.network)
+        raise_on_signals()
+        folder, options = make_folder(args)
+        launch(folder, url, options, args.arm)
     return 0
 
 

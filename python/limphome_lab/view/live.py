@@ -86,9 +86,9 @@ class Live:
         looked_at = bool(self.page.get_clients())
         self._looked_at = time.monotonic() if looked_at else self._looked_at
         awaited = self.pid is not None and time.monotonic() - self._joined < OPEN_WITHIN_S
-        if self.pid is not None and self.pace.wanted is None and self.pose is not None:
+        if self.pid is not None and self.pace.wanted is None and self._lockstep:
             self.pace.run(FIRST_PACE)
-        if looked_at or awaited:
+        if self._lockstep and (looked_at or awaited):
             self.pace.keep()
 
     def _done(self):
@@ -129,7 +129,7 @@ class Live:
         self.statuses, self.decision, self.pose = {}, None, None
         self._states = collections.OrderedDict()
         self._posed = float("-inf")
-        self._lockstep = True
+        self._lockstep = None  # not known yet
         self._joined = time.monotonic()
         self.curves.clear()
         with contextlib.suppress(Ending):
@@ -232,7 +232,7 @@ class Live:
         self._counters_text.content = told.counters(self.statuses)
         if self.pose is not None:
             self.pace.text.content = f"pace: **{told.pace(self.pose.pace)}**, plant time {self.pose.utime / 1e6:.1f} s"
-            self.pace.show(self.pose.pace, self._lockstep)
+            self.pace.show(self.pose.pace, bool(self._lockstep))
         self.curves.draw()
 
 
