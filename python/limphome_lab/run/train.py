@@ -110,20 +110,21 @@ def train(pair, folder, progress):
 def main():
     args = parse_arguments()
     with Viewing(args.view) as viewing:
-        code = run(args)
+        code = run(args, viewing)
         if code == 0:
             viewing.linger()
         return code
 
 
-def run(args):
+def run(args, viewing):
     url = network.enter(args.network)
     raise_on_signals()
     folder, done = resumed_folder(args) if args.resume is not None else (new_folder(args), 0)
     part = Part(folder)
     print(f"training in {paths.shown(folder.path)}", file=sys.stderr)
     progress = Progress(int(folder.settings()["learning"]["episodes"]), done, quiet=args.quiet)
-    pair = (SupervisedPair if args.supervise else Pair)(folder, url, ["--resume"] if args.resume is not None else [])
+    options = ["--resume"] if args.resume is not None else []
+    pair = (SupervisedPair if args.supervise else Pair)(folder, url, options, ready=viewing.wait)
     result, code = "finished", 0
     try:
         train(pair, folder, progress)

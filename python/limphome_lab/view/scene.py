@@ -8,6 +8,7 @@ import numpy as np
 from viser import transforms
 
 from limphome import robot_state_t
+from limphome_lab.robot import rotation_of
 from limphome_lab.show.figures import outline, style
 from limphome_lab.view.belt import Belt
 
@@ -43,8 +44,8 @@ class RobotScene:
         self.frame = None  # shown last
         self.shown = dict.fromkeys(LAYERS, True)
         self.follow = False  # keeps the robot at the offset and moves the world under it, so that the eye can stay
-        self._offset = np.asarray(offset, dtype=float)
-        self._root = scene.add_frame(f"/{name}", show_axes=False, position=self._offset)
+        self._root = scene.add_frame(f"/{name}", show_axes=False)
+        self.place(offset)
         self._bodies = [
             scene.add_frame(self._path(f"body{index}"), show_axes=False) for index in range(len(robot.bodies))
         ]
@@ -57,13 +58,23 @@ class RobotScene:
         self._trail = []
         self._add_layers()
 
+    def place(self, offset, turn=(1, 0, 0, 0), origin=(0, 0, 0)):
+        """Puts `origin` [3] of its plant's world at `offset` in the page's, turned by `turn` (w, x, y, z)."""
+        self._offset, self._turn, self._origin = np.asarray(offset, dtype=float), rotation_of(turn), np.asarray(origin)
+        self._root.wxyz = np.asarray(turn, dtype=float)
+        self._place_root()
+
+    def _place_root(self):
+        at = self.frame.position * (1, 1, 0) if self.follow and self.frame is not None else self._origin
+        self._root.position = self._offset - self._turn @ at
+
     def show(self, frame):
         """Moves all of it to a frame."""
         jumped = self.frame is None or np.linalg.norm(frame.position - self.frame.position) > JUMP
         if jumped or frame.session != self.frame.session:
             self._trail = []
         self.frame = frame
-        self._root.position = self._offset - (frame.position * (1, 1, 0) if self.follow else 0)
+        self._place_root()
         for handle, pose in zip(
             self._bodies,
             self.robot.frames(frame.actuator_position, frame.position, frame.orientation),
