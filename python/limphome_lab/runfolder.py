@@ -57,6 +57,10 @@ class RunFolder:
         """Takes the folder for this process until it ends; InputError where another works there."""
         self._held = lock.take(self.lock)
 
+    def leave(self):
+        """Gives it up before that."""
+        self._held.close()
+
     def others(self):
         """All that lies there but the lock."""
         return [file for file in self.path.iterdir() if file != self.lock]

@@ -59,9 +59,14 @@ void World::reset(int64_t episode) {
 }
 
 void World::sense(robot_state_t &state) {
+    exact(state);
+    sensor_errors_.apply(state);
+}
+
+bool World::exact(robot_state_t &state) const {
     read_sensors(scene_->robot, scene_->drives, state);
     state.utime = std::llround(time() * 1e6);
-    sensor_errors_.apply(state);
+    return true;
 }
 
 Health World::health(int actuator) const {
@@ -80,10 +85,14 @@ void World::command(const double velocity[max_actuators]) {
 }
 
 void World::advance(double seconds) {
+    advance_asking(seconds, [](double) { return true; });
+}
+
+void World::advance_asking(double seconds, const std::function<bool(double)> &may_step) {
     steps_due_ += seconds / time_step();
     const long steps = std::lround(steps_due_);
     steps_due_ -= static_cast<double>(steps);
-    for (long i = 0; i < steps; i++) {
+    for (long i = 0; i < steps && may_step(time_step()); i++) {
         step();
     }
 }

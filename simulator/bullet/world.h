@@ -32,11 +32,13 @@ class World final : public Machine {
     void reset(int64_t episode) override;
     // Rates of Table 1.
     void command(const double velocity[max_actuators]) override;
-    // With errors; see read_sensors() for none.
+    // With errors.
     void sense(robot_state_t &state) override;
+    bool exact(robot_state_t &state) const override;
     Health health(int actuator) const override;
     // Whole time steps; what is over is left for the next time.
     void advance(double seconds) override;
+    void advance_asking(double seconds, const std::function<bool(double)> &may_step) override;
     bool can_pause() const override { return true; }
     bool can_be_carried_back() const override { return settings_.simulator.reset == SETTINGS_INITIAL_POSE; }
     // No step is done any more, until the next reset.
