@@ -12,8 +12,8 @@ from limphome_lab.recording import TornRecording, read_placed
 
 
 def timeline(path, told=lambda done: None):
-    """Yields (time [us], channel, message) in the order they were recorded. The time, that of the newest state or end of
-    an episode, never runs back. `told` is called with the bytes read so far.
+    """Yields (time [us], channel, message) in the order they were recorded. The time, that of the newest state or end
+    of an episode, never runs back. `told` is called with the bytes read so far.
 
     What is no message of ours is left out, and so is what follows the first event that is not whole, as a run under way
     may end within one; that is told on stderr."""

@@ -1,4 +1,4 @@
-"""A recording as MCAP: our messages as JSON on topics named as their channels, and what a 3D panel makes a picture of."""
+"""A recording as MCAP: our messages as JSON on topics named as their channels, and what a 3D panel shows."""
 
 import json
 
@@ -7,7 +7,7 @@ from mcap.writer import Writer
 from limphome_lab import files
 from limphome_lab.channels import DECISION, EPISODE, STATE
 from limphome_lab.export import foxglove, json_message
-from limphome_lab.export.scene import Scene, goal, path
+from limphome_lab.export.scene import Scene, goal_line, path
 from limphome_lab.messages import TYPES
 from limphome_lab.robot import read
 from limphome_lab.show.share import Share
@@ -82,7 +82,7 @@ class Picture:
             yield "/tf", self._scene.frames(time, message)
             self._states.append(message)
         elif channel == DECISION and message.step == 0 and self._states:
-            yield "/goal", goal(time, message, self._states[-1])
+            yield "/goal", goal_line(time, message, self._states[-1])
         elif channel == EPISODE:
-            yield "/path", path(time, self._states)
+            yield "/path", path(time, [state for state in self._states if state.session == message.session])
             self._states = self._states[-1:]  # where one ends, the next may begin

@@ -4,6 +4,7 @@ import numpy as np
 
 from limphome_lab import quaternion
 from limphome_lab.export import foxglove
+from limphome_lab.goal import goal
 from limphome_lab.robot import Part
 from limphome_lab.show.figures import outline, style
 
@@ -47,9 +48,7 @@ class Scene:
         along = np.cross(across, (0, 0, 1)) * (length / 2 - radius)
         lying = quaternion.product(facing, quaternion.about((1, 0, 0), -np.pi / 2))  # z becomes the axis
         shade = self._shade(name, 0, failed)
-        box = foxglove.solid(
-            foxglove.pose(crawler["centre"], facing), (length - 2 * radius, width, 2 * radius), shade
-        )
+        box = foxglove.solid(foxglove.pose(crawler["centre"], facing), (length - 2 * radius, width, 2 * radius), shade)
         ends = [
             foxglove.cylinder(foxglove.pose(crawler["centre"] + end, lying), (2 * radius, 2 * radius, width), shade)
             for end in (along, -along)
@@ -74,14 +73,13 @@ class Scene:
         return {"transforms": transforms}
 
 
-def goal(time, decision, state):
+def goal_line(time, decision, state):
     """foxglove.SceneUpdate: the goal line of the episode of that decision."""
-    direction = quaternion.heading(state.orientation) - decision.heading_error
-    forward = np.array([np.cos(direction), np.sin(direction), 0])
-    left = np.array([-forward[1], forward[0], 0])
-    middle = np.array([*state.position[:2], 0]) + decision.goal_distance * forward - decision.lateral_error * left
-    ends = [middle + side * GOAL_WIDTH / 2 * left for side in (-1, 1)]
-    drawn = foxglove.line(ends, LINE_THICKNESS, foxglove.colour(style.GREEN))
+    point, direction = goal(decision, state)
+    across = GOAL_WIDTH / 2 * np.array([-np.sin(direction), np.cos(direction)])
+    drawn = foxglove.line(
+        [(*end, 0) for end in (point - across, point + across)], LINE_THICKNESS, foxglove.colour(style.GREEN)
+    )
     return {"deletions": [], "entities": [foxglove.entity(foxglove.time(time), WORLD, "goal", lines=[drawn])]}
 
 

@@ -1,4 +1,4 @@
-"""How much of some work is done: a live line on a terminal, else a line now and then; nothing where it takes no time."""
+"""How much of some work is done: a live line on a terminal, else a line now and then; nothing where it is short."""
 
 import sys
 import time
