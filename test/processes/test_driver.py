@@ -3,19 +3,23 @@
 The bus is a serial line with an SLCAN adapter at either end, and Linux's vcan too where the kernel has it.
 """
 
+import contextlib
+import shutil
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from bus import REAL_TIME, Bus, controller, inside
+from bus import REAL_TIME, Bus, controller, inside, settings
 
-from conftest import ROOT
+from conftest import ROOT, TIME_LIMIT_S, start_script, wait_until
 from limphome import arm_request_t, status_t
-from limphome_lab import network, paths
-from limphome_lab.channels import COMMAND
-from limphome_lab.runfolder import resolve_settings
+from limphome_lab import network, paths, registry
+from limphome_lab.channels import COMMAND, STATE
+from limphome_lab.messages import recorded
+from limphome_lab.recording import TornRecording
+from limphome_lab.runfolder import RunFolder, resolve_settings
 
 EXAMPLE = ROOT / "examples" / "driver"
 EXPERIMENT = ROOT / "config" / "smoke.ini"
@@ -216,6 +220,29 @@ def obeyed(bus, machine):
 def test_driver_on_the_messages_alone(tmp_path):
     seen = inside(drive_by_messages, str(tmp_path))
     assert [what for what, good in seen.items() if not good] == []
+
+
+def test_launch_starts_a_driver_in_place_of_the_simulator(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    command = f"{sys.executable} '{EXAMPLE / 'driver.py'}'"
+    process = start_script("launch", "--config", EXPERIMENT, "--driver", command, "--arm", *settings(*REAL_TIME))
+    wait_until(process, registry.running)
+    run = RunFolder(registry.running()[0]["run"])
+    try:
+        wait_until(process, lambda: run.messages.exists() and any(moved(run)))
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=TIME_LIMIT_S)
+        assert process.returncode == 130 and "armed: the robot moves" in errors
+        assert all(state.reset == state.WHERE_IT_IS for _, state in recorded(run.messages, STATE))  # no simulator does
+    finally:
+        shutil.rmtree(run.path)
+
+
+def moved(run):
+    """Whether each state that has been recorded tells of motion."""
+    with contextlib.suppress(TornRecording):  # it is being written
+        for _, state in recorded(run.messages, STATE):
+            yield any(state.actuator_velocity)
 
 
 def lose_the_bus(folder):
