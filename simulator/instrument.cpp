@@ -8,6 +8,7 @@
 //   truth              {"centre_of_mass": ...}; contacts as in ground_truth_t, "with" -2: the ground
 //   gravity X Y Z      what only a world has: from now on [m/s^2]; one that is not vertical stands for a slope
 //   lift HEIGHT        puts the robot that much higher [m]
+//   ground X Y SPACING COLUMNS ROWS   {"height": [m], "friction": share left} of nodes from (X, Y) on, row after row
 //   measure            {"time": since the reset [s], "cpu_s": processor time of all commands and advances so far [s],
 //                      "kinetic_energy": [J]}
 //
@@ -47,6 +48,12 @@ void print(const char *name, const double *values, int count) {
     std::printf("]");
 }
 
+// Nodes along one edge of the ground that is told.
+bool on_grid(double nodes) {
+    constexpr double most_nodes = 1000;
+    return nodes >= 1 && nodes <= most_nodes;
+}
+
 class Instrument {
    public:
     explicit Instrument(const RobotModel &model, const settings &configuration) : world_(model, configuration) {}
@@ -61,6 +68,7 @@ class Instrument {
     void lift(double height);
     void sense();
     void truth() const;
+    void ground(double x, double y, double spacing, int columns, int rows) const;
     void measure() const;
 
     World world_;
@@ -100,6 +108,8 @@ bool Instrument::act(const std::string &verb, const std::vector<double> &numbers
         sense();
     } else if (verb == "truth" && count == 0) {
         truth();
+    } else if (verb == "ground" && count == 5 && on_grid(numbers[3]) && on_grid(numbers[4])) {
+        ground(numbers[0], numbers[1], numbers[2], static_cast<int>(numbers[3]), static_cast<int>(numbers[4]));
     } else if (verb == "measure" && count == 0) {
         measure();
     } else {
@@ -164,6 +174,22 @@ void Instrument::truth() const {
         std::printf("}");
     }
     std::printf("]}\n");
+}
+
+void Instrument::ground(double x, double y, double spacing, int columns, int rows) const {
+    std::vector<double> height, friction;
+    for (int row = 0; row < rows; row++) {
+        for (int column = 0; column < columns; column++) {
+            const double across = x + column * spacing, along = y + row * spacing;
+            height.push_back(world_.ground().height(across, along));
+            friction.push_back(world_.ground().friction({across, along, height.back()}));
+        }
+    }
+    std::printf("{");
+    print("height", height.data(), columns * rows);
+    std::printf(", ");
+    print("friction", friction.data(), columns * rows);
+    std::printf("}\n");
 }
 
 void Instrument::measure() const {

@@ -78,6 +78,25 @@ int32_t learned_episode(const learned *l) {
     return 0;
 }
 
+static lh_controlled controlled_of(int32_t count, const int8_t *index) {
+    lh_controlled controlled = {.count = 0};
+    while (controlled.count < count && controlled.count < LH_MAX_ACTUATORS) {
+        controlled.index[controlled.count] = index[controlled.count];
+        controlled.count++;
+    }
+    return controlled;
+}
+
+lh_controlled learned_controlled(const learned *l) {
+    switch (l->kind) {
+        case LH_Q_LEARNING:
+            return controlled_of(l->as.q_learning.policy.num_controlled, l->as.q_learning.policy.controlled);
+        case LH_PLANNER:
+            return controlled_of(l->as.planner.planner.num_controlled, l->as.planner.planner.controlled);
+    }
+    return (lh_controlled){.count = 0};
+}
+
 int64_t learned_settings_hash(const learned *l) {
     switch (l->kind) {
         case LH_Q_LEARNING:

@@ -34,6 +34,9 @@ bool learned_restore(const learned *l, const lh_controller *controller, lh_learn
 /* Finished episodes it has learned from. */
 int32_t learned_episode(const learned *l);
 
+/* The actuators that it was learned for. */
+lh_controlled learned_controlled(const learned *l);
+
 /* Of the settings and the robot that a run must share to go on with it; not of a policy. */
 int64_t learned_settings_hash(const learned *l);
 

@@ -8,6 +8,7 @@
 #include "age.h"
 #include "bus.h"
 #include "fail.h"
+#include "operator.h"
 #include "session.h"
 #include "settings.h"
 
@@ -15,6 +16,7 @@ typedef struct plant_link {
     bus bus;
     session_tracker session;
     age_tracker age;
+    operator_lease hand;
     double command_timeout; /* age at which a state of a plant in real time is not acted on any more [s] */
 
     bool fresh; /* `newest` waits to be decided upon */
@@ -31,6 +33,7 @@ typedef struct plant_link {
     double heard;   /* from a plant at all */
     double denied;  /* from a plant that obeys another */
     double invalid; /* that is no state to decide upon */
+    double paced;   /* from our plant, that a person holds it up */
 } plant_link;
 
 /* Joins the bus at `url` and records in `log`. False, with the reason in `error` and nothing left open, on failure. The

@@ -45,8 +45,10 @@ static bool is_past(const session_tracker *t, int64_t session) {
     return false;
 }
 
-void session_over(session_tracker *tracker, int64_t session) {
-    tracker->over = tracker->over || (tracker->known && session == tracker->session);
+void session_over(session_tracker *tracker, int64_t session, session_break why) {
+    if (tracker->known && session == tracker->session) {
+        tracker->over = why;
+    }
 }
 
 void session_paused(session_tracker *tracker, double seconds) {
@@ -96,7 +98,8 @@ static session_verdict take_up(session_tracker *t, const session_label *label, d
     }
     remember(t, t->session);
     t->session = label->session;
-    t->asking = t->over = false;
+    t->asking = false;
+    t->over = SESSION_UNBROKEN;
     return place(t, label->seq, now, SESSION_NEW);
 }
 
@@ -111,15 +114,15 @@ static session_verdict ask(session_tracker *t, const session_label *label, doubl
 }
 
 static session_break cause(const session_tracker *t, const session_label *label) {
-    if (t->over) {
-        return SESSION_FAULTED;
+    if (t->over != SESSION_UNBROKEN) {
+        return t->over;
     }
     return session_is_anothers(t, label) ? SESSION_TAKEN : SESSION_ENDED;
 }
 
 /* A session that we have not asked for: the plant was restarted, or obeys another. */
 static session_verdict judge_other(session_tracker *t, const session_label *label, double now) {
-    const bool follows = t->over && label->sender == 0; /* after a fault the plant's session is nobody's */
+    const bool follows = t->over != SESSION_UNBROKEN && label->sender == 0; /* the plant's next session is nobody's */
     if (t->known && !follows && !is_silent(t, now)) {
         return SESSION_OTHER;
     }
@@ -130,7 +133,7 @@ static session_verdict judge_other(session_tracker *t, const session_label *labe
         begin_asking(t, now);
     }
     t->known = true;
-    t->over = false;
+    t->over = SESSION_UNBROKEN;
     return ask(t, label, now);
 }
 
@@ -142,7 +145,7 @@ static session_verdict judge_ours(session_tracker *t, const session_label *label
     if (label->seq == t->seq) {
         return place(t, label->seq, now, SESSION_REPEATED);
     }
-    t->over = false; /* it lives, whatever was told of it */
+    t->over = SESSION_UNBROKEN; /* it lives, whatever was told of it */
     const bool next = label->seq > t->seq && (label->lockstep ? label->seq == t->seq + 1
                                                               : can_be_there(t, label->seq, t->seq, t->placed, now));
     return next ? place(t, label->seq, now, SESSION_NEW) : misplaced(t, label, now);

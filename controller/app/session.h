@@ -32,7 +32,7 @@ typedef struct session_label {
 typedef enum session_break {
     SESSION_UNBROKEN,
     SESSION_FAULTED,  /* the plant has told that it ended by a fault */
-    SESSION_ENDED,    /* the plant is silent in it while another is heard, of nobody */
+    SESSION_ENDED,    /* it has told that it begins anew, or is silent in it while another is heard, of nobody */
     SESSION_TAKEN,    /* likewise, of another controller */
     SESSION_MISPLACED /* the plant is at another state than we are: something else was obeyed */
 } session_break;
@@ -47,7 +47,7 @@ typedef struct session_tracker {
 
     bool known;                        /* a plant has been heard */
     bool asking;                       /* a reset of `session` has been asked for */
-    bool over;                         /* `session` has ended, as the plant has told */
+    session_break over;                /* `session` has ended, as the plant has told, and why */
     session_break broken;              /* why; cleared by the caller */
     int64_t session;                   /* ours; while asking, the one to be reset */
     int64_t seq;                       /* newest answered of ours; while asking, newest heard */
@@ -73,7 +73,7 @@ bool session_is_anothers(const session_tracker *tracker, const session_label *la
 void session_reset(session_tracker *tracker, double now);
 
 /* The plant has told that `session` ended without our asking: the next one is taken up without waiting for silence. */
-void session_over(session_tracker *tracker, int64_t session);
+void session_over(session_tracker *tracker, int64_t session, session_break why);
 
 /* We have not listened for so long [s]: that was no silence of the plant's. */
 void session_paused(session_tracker *tracker, double seconds);

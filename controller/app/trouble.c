@@ -3,6 +3,7 @@
 #include <math.h>
 
 static const double usual_pause = 1; /* between two looks [s]; a decision takes milliseconds */
+static const double paced_lasts = 3; /* a plant that is held up says so each second [s] */
 
 static const char *const words[TROUBLE_KINDS] = {
     [LIMPHOME_STATUS_T_NO_PLANT] = "no plant is heard; is one running on this network?",
@@ -12,6 +13,9 @@ static const char *const words[TROUBLE_KINDS] = {
     [LIMPHOME_STATUS_T_NOT_ARMED] = "the plant is not armed; holding still",
     [LIMPHOME_STATUS_T_TUMBLED] = "the robot has tumbled and cannot be carried back; holding still until it is righted",
     [LIMPHOME_STATUS_T_FLOODED] = "more messages come than can be looked at",
+    [LIMPHOME_STATUS_T_PACED] = "the plant is held up by a person at a viewer",
+    [LIMPHOME_STATUS_T_OPERATOR_SILENT] =
+        "the operator who had the robot by hand is silent; holding still until one takes it or gives it to the learner",
 };
 
 void trouble_init(trouble *t, const settings *s, double now) {
@@ -33,7 +37,8 @@ static void set_reason(trouble *t, int8_t reason, double now) {
 
 /* Whether the plant is answered, but by rest. */
 static bool rests(const trouble *t) {
-    return t->reason == LIMPHOME_STATUS_T_NOT_ARMED || t->reason == LIMPHOME_STATUS_T_TUMBLED;
+    return t->reason == LIMPHOME_STATUS_T_NOT_ARMED || t->reason == LIMPHOME_STATUS_T_TUMBLED ||
+           t->reason == LIMPHOME_STATUS_T_OPERATOR_SILENT;
 }
 
 void trouble_useful(trouble *t, int8_t reason, double now) {
@@ -75,7 +80,10 @@ double trouble_look(trouble *t, const plant_link *l, double now) {
         t->useful += pause;
     }
     look_for_flood(t, l->bus.counts.overruns, now);
-    if (now - t->useful >= t->timeout) {
+    if (l->paced > 0 && now - l->paced < paced_lasts && now - t->useful >= t->timeout) {
+        t->useful = now - t->timeout;
+        set_reason(t, LIMPHOME_STATUS_T_PACED, now);
+    } else if (now - t->useful >= t->timeout) {
         set_reason(t, cause(t, l, now), now);
     } else if (!rests(t)) {
         set_reason(t, now - t->flooded < usual_pause ? LIMPHOME_STATUS_T_FLOODED : LIMPHOME_STATUS_T_NONE, now);

@@ -8,7 +8,7 @@
 #include "plant_link.h"
 #include "settings.h"
 
-enum { TROUBLE_KINDS = 8 }; /* constants of status_t from NONE to FLOODED */
+enum { TROUBLE_KINDS = 15 }; /* constants of status_t from NONE to PACED; some are the plant's */
 
 typedef struct trouble {
     double timeout;   /* without a state to decide on before anything is said [s] */
@@ -24,12 +24,12 @@ typedef struct trouble {
 
 void trouble_init(trouble *t, const settings *s, double now);
 
-/* A state was decided on at `now` [s] (reason NONE), or answered by rest as the plant is NOT_ARMED or the robot
- * TUMBLED: that lasts as long as a person takes. */
+/* A state was decided on at `now` [s] (reason NONE), or answered by rest as the plant is NOT_ARMED, the robot TUMBLED
+ * or who had it by hand OPERATOR_SILENT: that lasts as long as a person takes. */
 void trouble_useful(trouble *t, int8_t reason, double now);
 
-/* Looks at the link at `now` [s]; call often. Returns for how long nobody looked beyond what is usual [s]: the process
- * was stopped, and what it has not heard says nothing. */
+/* Looks at the link at `now` [s]; call often. A plant that a person holds up is waited for. Returns for how long nobody
+ * looked beyond what is usual [s]: the process was stopped, and what it has not heard says nothing. */
 double trouble_look(trouble *t, const plant_link *l, double now);
 
 /* The condition of status_t that the reason makes of `condition`. */

@@ -1,5 +1,6 @@
 """Files that survive a fault at any moment: replaced whole or not at all."""
 
+import contextlib
 import os
 from pathlib import Path
 
@@ -22,3 +23,15 @@ def replace(path, content):
         os.fsync(folder)
     finally:
         os.close(folder)
+
+
+@contextlib.contextmanager
+def replacing(path):
+    """Gives the path of a file to write that takes the place of `path` at the end, unless that fails."""
+    path = Path(path)
+    fresh = path.with_name(path.name + ".new")
+    try:
+        yield fresh
+        os.replace(fresh, path)
+    finally:
+        fresh.unlink(missing_ok=True)

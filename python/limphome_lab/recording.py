@@ -24,13 +24,19 @@ class TornRecording(InputError):
 def read_log(path, begin=0):
     """Yields (channel, encoded message) of a recording in the order they were written, of a `begin` above 0 from the
     first event that begins at or behind that byte. TornRecording where it ends within an event."""
+    for _, channel, data in read_placed(path, begin):
+        yield channel, data
+
+
+def read_placed(path, begin=0):
+    """The same as (byte behind the event, channel, encoded message)."""
     with open(path, "rb") as file:
         if file.seek(0, 2) == 0:
             return
         with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
             at = _first_event(content, begin) if begin > 0 else 0
-            for _, channel, data in _events(path, content, at):
-                yield channel, data
+            for _, channel, data, end in _events(path, content, at):
+                yield end, channel, data
 
 
 def is_thinned(path):
@@ -39,7 +45,7 @@ def is_thinned(path):
         if file.seek(0, 2) == 0:
             return False
         with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content:
-            return any(number != count for count, (number, _, _) in enumerate(_events(path, content, 0)))
+            return any(number != count for count, (number, *_) in enumerate(_events(path, content, 0)))
 
 
 def _events(path, content, at):
@@ -47,8 +53,8 @@ def _events(path, content, at):
         event = _event(content, at)
         if event is None:
             raise TornRecording(path, at)
-        *found, at = event
-        yield found
+        at = event[-1]
+        yield event
 
 
 def _event(content, at):

@@ -42,7 +42,8 @@ std::unique_ptr<Scene> World::make_scene(int64_t episode) const {
     settings configuration = settings_;
     change_ground(configuration, episode);
     randomise(model, configuration, episode);
-    return std::make_unique<Scene>(model, configuration, ground_, failures_);
+    const Start start = draw_start(model, configuration, episode);
+    return std::make_unique<Scene>(model, configuration, ground_, failures_, start);
 }
 
 void World::reset(int64_t episode) {
@@ -58,9 +59,14 @@ void World::reset(int64_t episode) {
 }
 
 void World::sense(robot_state_t &state) {
+    exact(state);
+    sensor_errors_.apply(state);
+}
+
+bool World::exact(robot_state_t &state) const {
     read_sensors(scene_->robot, scene_->drives, state);
     state.utime = std::llround(time() * 1e6);
-    sensor_errors_.apply(state);
+    return true;
 }
 
 Health World::health(int actuator) const {
@@ -79,10 +85,14 @@ void World::command(const double velocity[max_actuators]) {
 }
 
 void World::advance(double seconds) {
+    advance_asking(seconds, [](double) { return true; });
+}
+
+void World::advance_asking(double seconds, const std::function<bool(double)> &may_step) {
     steps_due_ += seconds / time_step();
     const long steps = std::lround(steps_due_);
     steps_due_ -= static_cast<double>(steps);
-    for (long i = 0; i < steps; i++) {
+    for (long i = 0; i < steps && may_step(time_step()); i++) {
         step();
     }
 }

@@ -55,10 +55,12 @@ Link::Link(const std::string &url, const settings &s, int num_actuators)
       joint_speed_(as_commanded(s.action.joint_speed)),
       num_actuators_(num_actuators),
       owner_heard_(-std::numeric_limits<double>::infinity()),
-      arming_(!lockstep_, s.link.operator_timeout_s) {
+      arming_(!lockstep_, s.link.operator_timeout_s),
+      pace_(lockstep_) {
     lcm_.subscribe(LIMPHOME_CHANNEL_COMMAND, &Link::receive_command, this);
     lcm_.subscribe(LIMPHOME_CHANNEL_RESET, &Link::receive_reset, this);
     lcm_.subscribe(LIMPHOME_CHANNEL_ARM, &Link::receive_arm, this);
+    lcm_.subscribe(LIMPHOME_CHANNEL_PACE, &Link::receive_pace, this);
     begin_session(std::nullopt);
 }
 
@@ -95,11 +97,19 @@ void Link::publish_state() {
     lcm_.publish(LIMPHOME_CHANNEL_STATE, &state_);
 }
 
-void Link::resend_state_if_due() {
-    if (monotonic_now() - state_sent_ >= resend_) {
+void Link::repeat_state(double interval) {
+    if (monotonic_now() - state_sent_ >= interval) {
         counts_.resent++;
         publish_state();
     }
+}
+
+void Link::resend_state_if_due() {
+    repeat_state(resend_);
+}
+
+void Link::show_life() {
+    repeat_state(sender_timeout_ / 4);
 }
 
 void Link::send_truth(ground_truth_t truth) {
@@ -107,6 +117,14 @@ void Link::send_truth(ground_truth_t truth) {
     truth.seq = state_.seq;
     truth.utime = state_.utime;
     lcm_.publish(LIMPHOME_CHANNEL_TRUTH, &truth);
+}
+
+void Link::send_pose(pose_t pose) {
+    pose.session = pose.truth.session = state_.session;
+    pose.seq = pose.truth.seq = state_.seq;
+    pose.truth.utime = pose.utime;
+    pose.pace = pace_.told();
+    lcm_.publish(LIMPHOME_CHANNEL_POSE, &pose);
 }
 
 void Link::send_status(status_t status) {
@@ -243,6 +261,16 @@ void Link::receive_arm(const lcm::ReceiveBuffer *buffer, const std::string &) {
             counts_.rejected_sender++;
             break;
     }
+}
+
+// Nobody needs leave for it: only a simulation can be held up, and what happens in it stays the same.
+void Link::receive_pace(const lcm::ReceiveBuffer *buffer, const std::string &) {
+    pace_t request{};
+    counts_.received++;
+    const bool decoded = decode_exactly(buffer, request);
+    const auto verdict = decoded ? pace_.hear(request, monotonic_now()) : Pace::Verdict::malformed;
+    counts_.rejected_malformed += verdict == Pace::Verdict::malformed ? 1 : 0;
+    counts_.rejected_non_finite += verdict == Pace::Verdict::non_finite ? 1 : 0;
 }
 
 void Link::pass() {

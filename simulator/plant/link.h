@@ -1,5 +1,5 @@
-// The plant's half of the link: states out, commands, reset and arm requests in, each checked, counted and, where it
-// belongs to a past session, to another sender or to a state that is too old, dropped.
+// The plant's half of the link: states out, commands, reset, arm and pace requests in, each checked, counted and, where
+// it belongs to a past session, to another sender or to a state that is too old, dropped.
 //
 // A session is owned by the sender that asked for it, and obeys nobody else; one that began by itself, when the plant
 // started or after a fault, obeys nobody. So a controller asks for a reset before it is obeyed. Who owned a session
@@ -11,6 +11,7 @@
 #include <deque>
 #include <limphome/arm_request_t.hpp>
 #include <limphome/ground_truth_t.hpp>
+#include <limphome/pose_t.hpp>
 #include <limphome/reset_request_t.hpp>
 #include <limphome/robot_state_t.hpp>
 #include <limphome/status_t.hpp>
@@ -20,6 +21,7 @@
 
 #include "plant/arming.h"
 #include "plant/bus.h"
+#include "plant/pace.h"
 
 namespace limphome {
 
@@ -46,7 +48,11 @@ class Link {
     // Puts the newest state on the bus again if it has been unanswered for the resend interval. Not at every message
     // that does not answer it: a late repetition would then breed repetitions for ever.
     void resend_state_if_due();
+    // The same four times within the sender's timeout, answered or not, while a decision period is held up: its owner,
+    // which answers again, hears that the plant lives, and the plant that its owner does.
+    void show_life();
     void send_truth(ground_truth_t truth);
+    void send_pose(pose_t pose);
     void send_status(status_t status);
 
     // Waits at most `timeout` [s] and takes in the messages that are there, but only so many at once that the caller
@@ -67,7 +73,10 @@ class Link {
     // The plant has heard nobody for so long [s], nor could it have.
     void excuse(double seconds);
 
-    // Of the newest state sent.
+    // How fast time is to go, in lockstep.
+    Pace &pace() { return pace_; }
+
+    const robot_state_t &newest() const { return state_; }  // state sent
     int64_t session() const { return state_.session; }
     int64_t seq() const { return state_.seq; }
     // Whether a controller owns the session.
@@ -88,9 +97,11 @@ class Link {
     };
 
     void publish_state();
+    void repeat_state(double interval);
     void receive_command(const lcm::ReceiveBuffer *buffer, const std::string &channel);
     void receive_reset(const lcm::ReceiveBuffer *buffer, const std::string &channel);
     void receive_arm(const lcm::ReceiveBuffer *buffer, const std::string &channel);
+    void receive_pace(const lcm::ReceiveBuffer *buffer, const std::string &channel);
     bool is_sound(const lcm::ReceiveBuffer *buffer, velocity_command_t &command);
     bool is_ours(const velocity_command_t &command);
     const Sent *answered_state(int64_t seq, double now) const;
@@ -119,6 +130,7 @@ class Link {
     int64_t answered_ = -1;
     std::optional<reset_request_t> request_;
     Arming arming_;
+    Pace pace_;
     status_t counts_{};
     double wait_time_ = 0;
 };

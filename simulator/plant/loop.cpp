@@ -36,7 +36,12 @@ const char *words(int8_t reason) {
 }  // namespace
 
 Loop::Loop(Machine &machine, Link &link, const settings &s)
-    : machine_(machine), link_(link), settings_(s), started_(monotonic_now()) {
+    : machine_(machine),
+      link_(link),
+      poses_(machine, link),
+      settings_(s),
+      started_(monotonic_now()),
+      pace_(link.pace().told()) {
     if (s.simulator.pace == SETTINGS_LOCKSTEP && !machine.can_pause()) {
         throw std::runtime_error(
             "[simulator] pace = lockstep: the time of this machine does not wait for commands; "
@@ -61,9 +66,12 @@ bool Loop::run(const volatile std::sig_atomic_t *stop) {
 
 bool Loop::follow(const volatile std::sig_atomic_t *stop) {
     const bool lockstep = settings_.simulator.pace == SETTINGS_LOCKSTEP;
+    stop_ = stop;
     begin();
     while (*stop == 0) {
-        if (const auto request = link_.take_reset()) {
+        if (link_.pace().take_reset()) {
+            begin_anew();
+        } else if (const auto request = link_.take_reset()) {
             faults_in_a_row_ = session_decisions_ > 0 ? 0 : faults_in_a_row_;
             episode_ = request->episode;
             restart(request);
@@ -76,7 +84,7 @@ bool Loop::follow(const volatile std::sig_atomic_t *stop) {
                 return false;
             }
         }
-        report_each_second();
+        tell();
     }
     report(status_t::FINISHED, status_t::NONE);
     return true;
@@ -111,6 +119,12 @@ bool Loop::recover() {
     return true;
 }
 
+// The report tells the controller that the session is over.
+void Loop::begin_anew() {
+    report(status_t::WAITING, status_t::BEGUN_ANEW);
+    restart(std::nullopt);
+}
+
 void Loop::begin() {
     clock_ = monotonic_now();
     obeyed_ = {{}, clock_};
@@ -128,6 +142,7 @@ void Loop::publish() {
     state.reset = machine_.can_be_carried_back() ? robot_state_t::TO_INITIAL_POSE : robot_state_t::WHERE_IT_IS;
     state.held = held_ ? 1 : 0;
     link_.send_state(state);
+    link_.pace().arrive();
     ground_truth_t truth{};
     if (machine_.truth(truth)) {
         link_.send_truth(truth);
@@ -144,8 +159,28 @@ bool Loop::advance_lockstep() {
         return false;
     }
     machine_.command(command->command.velocity);
-    machine_.advance(settings_.episode.decision_period_s);
-    return true;
+    bool whole = true;
+    machine_.advance_asking(settings_.episode.decision_period_s,
+                            [this, &whole](double seconds) { return whole = may_step(seconds); });
+    return whole;
+}
+
+bool Loop::broken_off() const {
+    return *stop_ != 0 || link_.reset_requested() || link_.pace().reset_requested();
+}
+
+bool Loop::may_step(double seconds) {
+    Pace &pace = link_.pace();
+    if (pace.free()) {
+        return true;
+    }
+    double now = tell();
+    for (; pace.ahead(now) > 0 && !broken_off(); now = tell()) {
+        link_.wait(std::min(pace.ahead(now), poses_.due() - now));
+        link_.show_life();
+    }
+    pace.go(seconds, now);
+    return !broken_off();
 }
 
 // What was commanded before says nothing of how to move from now on.
@@ -202,6 +237,7 @@ bool Loop::advance_real_time() {
             ahead = clock_ + static_cast<double>(done) * slice - monotonic_now();
             link_.wait(std::max(ahead, 0.0));
         } while (ahead > 0);
+        tell();
         if (link_.reset_requested()) {
             return false;
         }
@@ -229,8 +265,25 @@ void Loop::report(int8_t condition, int8_t reason) {
     link_.send_status(status);
 }
 
-void Loop::report_each_second() {
+double Loop::tell() {
     const double now = monotonic_now();
+    link_.pace().pass(now);
+    if (link_.pace().unheeded() && !told_unheeded_) {
+        told_unheeded_ = true;
+        std::fprintf(
+            stderr,
+            "what comes by LIMPHOME_PACE is not heeded: a plant in real time can be neither paused nor slowed\n");
+    }
+    if (link_.pace().told() != pace_) {  // at once, as the controller waits for what comes next
+        pace_ = link_.pace().told();
+        report_due_ = now;
+    }
+    poses_.show(now, episode_);
+    report_each_second(now);
+    return now;
+}
+
+void Loop::report_each_second(double now) {
     if (now < report_due_) {
         return;
     }
@@ -244,6 +297,8 @@ void Loop::report_each_second() {
         report(status_t::WAITING, link_.arming().reason());
     } else if (!link_.owned()) {
         report(status_t::WAITING, status_t::NO_CONTROLLER);
+    } else if (!link_.pace().free()) {
+        report(link_.pace().paused() ? status_t::WAITING : status_t::RUNNING, status_t::PACED);
     } else {
         report(decisions_ == 0 ? status_t::WAITING : status_t::RUNNING, status_t::NONE);
     }

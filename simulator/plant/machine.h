@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limphome/ground_truth_t.hpp>
 #include <limphome/robot_state_t.hpp>
 
@@ -52,6 +53,10 @@ class Machine {
     // actuator_effort. The loop and the link see to the rest.
     virtual void sense(robot_state_t &state) = 0;
 
+    // The same as an onlooker sees it: as it is now, without the errors of the sensors and without drawing any; viewers
+    // are shown that. False: the machine knows no more than its sensors tell.
+    virtual bool exact(robot_state_t & /*state*/) const { return false; }
+
     // Of each actuator, 0 to num_actuators() - 1; what fails is told with the next state.
     virtual Health health(int actuator) const = 0;
 
@@ -59,15 +64,25 @@ class Machine {
     // passes by itself: there is nothing to do, and the loop, which follows the clock, waits until they are over.
     virtual void advance(double /*seconds*/) {}
 
-    // Whether time stands still until advance() is called, so that the loop may run in lockstep with the controller.
+    // The same, asking before each time step, of so many seconds, whether to do it; what is left after the first no is
+    // not done. So a person may look closer at what happens within a decision period. A machine that does not ask is
+    // held up between two of them.
+    virtual void advance_asking(double seconds, const std::function<bool(double)> &may_step) {
+        if (may_step(seconds)) {
+            advance(seconds);
+        }
+    }
+
+    // Whether time stands still until one of the two is called, so that the loop may run in lockstep with the
+    // controller.
     virtual bool can_pause() const { return false; }
 
     // Whether the last advance() ended in a state that is of no use: a simulation that left all bounds, a real machine
     // whose readings cannot be trusted. The loop reports a fault, publishes no such state and resets the machine.
     virtual bool diverged() const { return false; }
 
-    // What only a simulator knows, at the time of the newest sense(): fills in all but utime, session and seq and
-    // returns true. False: there is nothing to tell, and nothing is published.
+    // What only a simulator knows of the machine as it is now: fills in all but utime, session and seq and returns
+    // true. False: there is nothing to tell, and nothing is published.
     virtual bool truth(ground_truth_t & /*truth*/) const { return false; }
 
     // Since the machine was made, over all resets: simulated time [s], and drives at their torque limit, counted per

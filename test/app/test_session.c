@@ -195,9 +195,9 @@ END_TEST
 
 START_TEST(a_session_that_is_over_is_not_waited_for) {
     session_tracker t = begun();
-    session_over(&t, FIRST); /* of long ago */
+    session_over(&t, FIRST, SESSION_FAULTED); /* of long ago */
     ck_assert_int_eq(other(&t, THIRD, 0, NOBODYS, 0.1), SESSION_OTHER);
-    session_over(&t, SECOND);
+    session_over(&t, SECOND, SESSION_FAULTED);
     ck_assert_int_eq(other(&t, THIRD, 0, NOBODYS, 0.2), SESSION_RESET);
     ck_assert_int_eq(t.broken, SESSION_FAULTED);
     ck_assert_int_eq(ours(&t, FOURTH, 0, LOCKSTEP, 0.3), SESSION_NEW);
@@ -207,7 +207,7 @@ END_TEST
 
 START_TEST(a_session_that_is_wrongly_told_to_be_over_goes_on) {
     session_tracker t = begun();
-    session_over(&t, SECOND);
+    session_over(&t, SECOND, SESSION_FAULTED);
     ck_assert_int_eq(ours(&t, SECOND, 1, LOCKSTEP, 0.2), SESSION_NEW);
     ck_assert_int_eq(other(&t, THIRD, 0, NOBODYS, 0.3), SESSION_OTHER);
 }

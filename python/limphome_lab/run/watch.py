@@ -29,6 +29,7 @@ REASONS = {  # of status_t
     "OPERATOR_SILENT": "is not armed: the operator has been silent",
     "MACHINE_FAILED": "is not armed: the machine has failed",
     "BY_OPERATOR": "was disarmed by the operator",
+    "PACED": "is held up by a person at a viewer",
 }
 
 

@@ -1,0 +1,1 @@
+"""What was recorded and learned, as files of other tools."""

@@ -1,0 +1,35 @@
+"""Command view: a page in the browser that shows the robot of a running pair, live."""
+
+import sys
+from pathlib import Path
+
+from limphome_lab import command
+from limphome_lab.ending import with_exit_code
+from limphome_lab.run.processes import raise_on_signals
+
+
+def parse_arguments():
+    parser = command.parser(
+        "view",
+        "Shows the robot of a running pair in the browser, live; joins and leaves at will.",
+        "runs/default-seed1-20250131-120000",
+    )
+    parser.add_argument("run", metavar="RUN", nargs="?", help="run folder of the pair; default: whichever is running")
+    parser.add_argument("--port", type=int, default=0, help="of the page; default: a free one")
+    parser.add_argument("--pid", type=int, help="show the pair of this process alone, and end after it")
+    return parser.parse_args()
+
+
+@with_exit_code
+def main():
+    args = parse_arguments()
+    raise_on_signals()
+    from limphome_lab.view import live  # viser takes a second to load
+
+    run = None if args.run is None else Path(args.run).absolute()
+    live.serve(run, args.port, args.pid, lambda url: print(f"open {url}\nCtrl-C ends it", flush=True))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
