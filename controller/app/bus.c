@@ -12,7 +12,7 @@
 #include "messages.h"
 
 enum { LARGEST_MESSAGE = 16384 };
-enum { MOST_STATUSES = 20 /* recorded in a second */ };
+enum { MOST_RECORDED = 20 /* of a kind in a second */ };
 enum { MOST_MESSAGES = 128 /* handled at once: some 0.3 ms */ };
 
 double bus_now(void) {
@@ -44,14 +44,23 @@ static void receive_state(const lcm_recv_buf_t *buffer, const char *channel, voi
     }
 }
 
-/* Of the plant's statuses, one a second and at each fault, so many are recorded: a flood must not fill the disk. */
-static bool may_record_status(bus *b) {
+static bool may_record(bus_share *share) {
     const double now = bus_now();
-    if (now - b->status_second >= 1) {
-        b->status_second = now;
-        b->statuses = 0;
+    if (now - share->second >= 1) {
+        *share = (bus_share){.second = now};
     }
-    return b->statuses++ < MOST_STATUSES;
+    return share->recorded++ < MOST_RECORDED;
+}
+
+static void receive_operate(const lcm_recv_buf_t *buffer, const char *channel, void *user) {
+    bus *b = user;
+    limphome_operate_t message;
+    b->counts.received++;
+    if (message_decode_operate(buffer->data, buffer->data_size, &message) != MESSAGE_GOOD) {
+        b->counts.operate_malformed++;
+    } else if (b->listener.operate(b->listener.user, &message) && may_record(&b->operates)) {
+        recording_add(b->recording, channel, buffer->data, (int)buffer->data_size);
+    }
 }
 
 /* The plant's status is kept in the log beside ours. */
@@ -60,7 +69,7 @@ static void receive_status(const lcm_recv_buf_t *buffer, const char *channel, vo
     limphome_status_t status;
     const int size = limphome_status_t_decode(buffer->data, 0, (int)buffer->data_size, &status);
     if (size == (int)buffer->data_size && status.process == LIMPHOME_STATUS_T_PLANT) {
-        if (may_record_status(b)) {
+        if (may_record(&b->statuses)) {
             recording_add(b->recording, channel, buffer->data, size);
         }
         b->listener.status(b->listener.user, &status);
@@ -69,7 +78,8 @@ static void receive_status(const lcm_recv_buf_t *buffer, const char *channel, vo
 
 static bool join_bus(bus *b, const char *url, char error[ERROR_LENGTH]) {
     return udpm_open(&b->lcm, url, error) && udpm_subscribe(&b->lcm, LIMPHOME_CHANNEL_STATE, receive_state, b) &&
-           udpm_subscribe(&b->lcm, LIMPHOME_CHANNEL_STATUS, receive_status, b);
+           udpm_subscribe(&b->lcm, LIMPHOME_CHANNEL_STATUS, receive_status, b) &&
+           udpm_subscribe(&b->lcm, LIMPHOME_CHANNEL_OPERATE, receive_operate, b);
 }
 
 bool bus_draw(int64_t *number, char error[ERROR_LENGTH]) {

@@ -9,6 +9,7 @@
 #include "learned.h"
 #include "limphome_decision_t.h"
 #include "limphome_episode_t.h"
+#include "limphome_operate_t.h"
 #include "limphome_reset_request_t.h"
 #include "limphome_robot_state_t.h"
 #include "limphome_status_t.h"
@@ -20,9 +21,16 @@
  */
 typedef struct bus_listener {
     void (*state)(void *user, const limphome_robot_state_t *state);
-    void (*status)(void *user, const limphome_status_t *status); /* of the plant */
+    void (*status)(void *user, const limphome_status_t *status);    /* of the plant */
+    bool (*operate)(void *user, const limphome_operate_t *message); /* whether it is obeyed, and so recorded */
     void *user;
 } bus_listener;
+
+/* What of a kind that comes from others is recorded in a second: a flood must not fill the disk. */
+typedef struct bus_share {
+    double second; /* when the present one began [s] */
+    int recorded;  /* in it */
+} bus_share;
 
 /* Overruns in a second that make a flood: 5,000 messages. */
 enum { BUS_FLOOD = 40 };
@@ -36,8 +44,8 @@ typedef struct bus {
     bus_listener listener;
     limphome_status_t counts; /* the counters of LIMPHOME_STATUS that are counted here and by the listener */
     double wait_time;         /* spent in bus_wait [s] */
-    double status_second;     /* when the second began in which `statuses` of the plant were recorded [s] */
-    int statuses;
+    bus_share statuses;       /* of the plant */
+    bus_share operates;
 } bus;
 
 /* Joins the bus at `url` (NULL: LCM's default) and records in `log`. False, with the reason in `error` and nothing left

@@ -49,6 +49,20 @@ message_verdict message_decode_state(const void *data, size_t size, limphome_rob
     return finite ? MESSAGE_GOOD : MESSAGE_NON_FINITE;
 }
 
+message_verdict message_decode_operate(const void *data, size_t size, limphome_operate_t *operate) {
+    if (size > INT_MAX || limphome_operate_t_decode(data, 0, (int)size, operate) != (int)size || operate->sender == 0 ||
+        !within(operate->action, LIMPHOME_OPERATE_T_GIVE, LIMPHOME_OPERATE_T_TAKE) ||
+        !within(operate->num_actuators, 1, WIRE_ACTUATORS)) {
+        return MESSAGE_MALFORMED;
+    }
+    for (int i = 0; i < operate->num_actuators; i++) {
+        if (!within(operate->direction[i], -1, 1)) {
+            return MESSAGE_MALFORMED;
+        }
+    }
+    return MESSAGE_GOOD;
+}
+
 /* Counts within the wire's arrays, every value used finite. */
 static message_verdict check_policy(const limphome_policy_t *policy) {
     if (!within(policy->num_actuators, 1, WIRE_ACTUATORS) ||

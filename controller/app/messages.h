@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "limphome_checkpoint_t.h"
+#include "limphome_operate_t.h"
 #include "limphome_planner_checkpoint_t.h"
 #include "limphome_planner_t.h"
 #include "limphome_policy_t.h"
@@ -19,6 +20,7 @@ typedef enum message_verdict {
 
 /* Each decodes exactly `size` bytes; on anything but MESSAGE_GOOD the output is not to be used. */
 message_verdict message_decode_state(const void *data, size_t size, limphome_robot_state_t *state);
+message_verdict message_decode_operate(const void *data, size_t size, limphome_operate_t *operate);
 message_verdict message_decode_policy(const void *data, size_t size, limphome_policy_t *policy);
 message_verdict message_decode_checkpoint(const void *data, size_t size, limphome_checkpoint_t *checkpoint);
 message_verdict message_decode_planner(const void *data, size_t size, limphome_planner_t *planner);

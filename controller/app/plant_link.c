@@ -97,15 +97,48 @@ static void on_status(void *user, const limphome_status_t *status) {
     }
 }
 
+static void count_operate(limphome_status_t *counts, operator_verdict verdict) {
+    switch (verdict) {
+        case OPERATOR_OBEYED:
+            counts->operated++;
+            break;
+        case OPERATOR_MALFORMED:
+            counts->operate_malformed++;
+            break;
+        case OPERATOR_STALE:
+            counts->operate_stale++;
+            break;
+        case OPERATOR_DENIED:
+            counts->operate_denied++;
+            break;
+        case OPERATOR_REPEATED:
+            counts->operate_repeated++;
+            break;
+    }
+}
+
+static bool on_operate(void *user, const limphome_operate_t *message) {
+    plant_link *l = user;
+    const bool ours = !l->session.asking && l->newest.session == l->session.session;
+    const operator_place place = {.session = l->session.session,
+                                  .seq = l->session.seq,
+                                  .num_actuators = ours ? l->newest.num_actuators : 0,
+                                  .lockstep = l->newest.lockstep != 0};
+    const operator_verdict verdict = operator_hear(&l->hand, message, &place, bus_now());
+    count_operate(&l->bus.counts, verdict);
+    return verdict == OPERATOR_OBEYED;
+}
+
 bool plant_link_open(plant_link *l, const char *url, const settings *s, recording *log, char error[ERROR_LENGTH]) {
     memset(l, 0, sizeof *l);
+    const bus_listener listener = {.state = on_state, .status = on_status, .operate = on_operate, .user = l};
     int64_t seed;
-    if (!bus_draw(&seed, error) ||
-        !bus_open(&l->bus, url, (bus_listener){.state = on_state, .status = on_status, .user = l}, log, error)) {
+    if (!bus_draw(&seed, error) || !bus_open(&l->bus, url, listener, log, error)) {
         return false;
     }
     l->command_timeout = s->link.command_timeout_s;
     session_init(&l->session, l->bus.sender, (uint64_t)seed, s->link.sender_timeout_s, s->episode.decision_period_s);
+    operator_init(&l->hand, s->link.operator_timeout_s, s->episode.decision_period_s);
     return true;
 }
 
@@ -154,6 +187,7 @@ bool plant_link_take(plant_link *l, plant_state *taken) {
     }
     const bool follows = l->newest.seq == l->decided + 1 && l->newest.held == 0;
     *taken = (plant_state){.state = l->newest, .begins = l->begins, .gap = !l->begins && !follows};
+    recording_at(l->bus.recording, l->newest.utime);
     l->decided = l->newest.seq;
     l->fresh = l->begins = false;
     return true;

@@ -8,6 +8,7 @@
 #include "age.h"
 #include "bus.h"
 #include "fail.h"
+#include "operator.h"
 #include "session.h"
 #include "settings.h"
 
@@ -15,6 +16,7 @@ typedef struct plant_link {
     bus bus;
     session_tracker session;
     age_tracker age;
+    operator_lease hand;
     double command_timeout; /* age at which a state of a plant in real time is not acted on any more [s] */
 
     bool fresh; /* `newest` waits to be decided upon */

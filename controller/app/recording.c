@@ -3,7 +3,6 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <string.h>
-#include <time.h>
 
 #include "learned.h"
 #include "limphome_channels.h"
@@ -34,10 +33,11 @@ bool recording_find(const char *path, int32_t episodes, recording_place *end, ch
         return files_fail(error, path);
     }
     bool found = false, told = false;
-    recording_place at = {0, 0};
+    recording_place at = {0, 0, 0};
     while (!told && recording_event_read(file, &e)) {
         at.bytes += e.bytes;
         at.events = e.number + 1;
+        at.time = e.time;
         if (episode_told(&e) == episodes) {
             *end = at;
             found = true;
@@ -64,16 +64,22 @@ bool recording_go_on(recording *r, const char *path, recording_place end, char e
     return open_log(r, path, "a", error) && recording_cut(r, end, error);
 }
 
+void recording_at(recording *r, int64_t utime) {
+    const int64_t clock = utime > 0 ? utime : 0;
+    const int64_t passed = r->follows && clock > r->clock ? clock - r->clock : 0;
+    r->time = passed < INT64_MAX - r->time ? r->time + passed : INT64_MAX;
+    r->clock = clock;
+    r->follows = true;
+}
+
 void recording_add(recording *r, const char *channel, void *data, int size) {
     if (r->log == NULL || r->error[0] != '\0') {
         return;
     }
-    struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
     char name[RECORDING_CHANNEL_LENGTH];
     snprintf(name, sizeof name, "%s", channel);
     lcm_eventlog_event_t e = {
-        .timestamp = (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000,
+        .timestamp = r->time,
         .channellen = (int32_t)strlen(name),
         .datalen = size,
         .channel = name,
@@ -85,7 +91,8 @@ void recording_add(recording *r, const char *channel, void *data, int size) {
 }
 
 recording_place recording_end(const recording *r) {
-    return r->log == NULL ? (recording_place){0, 0} : (recording_place){(int64_t)ftello(r->log->f), r->log->eventcount};
+    return r->log == NULL ? (recording_place){0, 0, 0}
+                          : (recording_place){(int64_t)ftello(r->log->f), r->log->eventcount, r->time};
 }
 
 bool recording_cut(recording *r, recording_place end, char error[ERROR_LENGTH]) {
@@ -93,6 +100,8 @@ bool recording_cut(recording *r, recording_place end, char error[ERROR_LENGTH]) 
         return true;
     }
     r->log->eventcount = end.events;
+    r->time = end.time;
+    r->follows = false;
     return files_cut(r->log->f, r->path, end.bytes, error);
 }
 

@@ -15,6 +15,9 @@ typedef struct recording {
     lcm_eventlog_t *log; /* NULL: nothing is recorded */
     char path[FILES_PATH_LENGTH];
     char error[ERROR_LENGTH]; /* why an event could not be written; "" while all were */
+    int64_t time;             /* of the events that are added now (recording_at) [us] */
+    int64_t clock;            /* of the plant then [us] */
+    bool follows;             /* the clock of before is the same plant's */
     int64_t longest;          /* size above which it is thinned the next time (recording_thin.h) [bytes] */
 } recording;
 
@@ -22,6 +25,7 @@ typedef struct recording {
 typedef struct recording_place {
     int64_t bytes;  /* before it */
     int64_t events; /* number of the next one */
+    int64_t time;   /* of the one before [us] */
 } recording_place;
 
 /* All that return bool do so with the reason in `error`. */
@@ -37,7 +41,12 @@ bool recording_find(const char *path, int32_t episodes, recording_place *end, ch
 /* Opens a file to add to what it holds before `end`. */
 bool recording_go_on(recording *r, const char *path, recording_place end, char error[ERROR_LENGTH]);
 
-/* Adds a message, under the wall-clock time as lcm-logger would. */
+/* The plant's clock tells `utime` [us]: log time is plant time, so that a recording plays back as fast as it happened,
+ * however fast it was computed. It begins at 0 and goes on by what the plant's clock does; never back, where that
+ * begins anew with a session or a plant, nor by what passed between two runs that go on in one file. */
+void recording_at(recording *r, int64_t utime);
+
+/* Adds a message, under that time. */
 void recording_add(recording *r, const char *channel, void *data, int size);
 
 /* Where the next event comes to lie. */

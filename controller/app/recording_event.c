@@ -3,11 +3,15 @@
 #include <string.h>
 
 /* The header: sync word, number, time [us], length of channel and of data, all big-endian; then come those two. */
-enum { AT_NUMBER = 4, AT_CHANNEL_LENGTH = 20, AT_DATA_LENGTH = 24 };
+enum { AT_NUMBER = 4, AT_TIME = 12, AT_CHANNEL_LENGTH = 20, AT_DATA_LENGTH = 24 };
 static const uint32_t sync_word = 0xEDA1DA01;
 
 static uint32_t read_word(const unsigned char *bytes) {
     return (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 | bytes[3];
+}
+
+static int64_t read_long(const unsigned char *bytes) {
+    return (int64_t)((uint64_t)read_word(bytes) << 32 | read_word(bytes + 4));
 }
 
 bool recording_event_read(FILE *file, recording_event *e) {
@@ -21,7 +25,8 @@ bool recording_event_read(FILE *file, recording_event *e) {
     }
     e->channel[channel] = '\0';
     e->size = (int)size;
-    e->number = (int64_t)((uint64_t)read_word(e->header + AT_NUMBER) << 32 | read_word(e->header + AT_NUMBER + 4));
+    e->number = read_long(e->header + AT_NUMBER);
+    e->time = read_long(e->header + AT_TIME);
     e->bytes = (int64_t)RECORDING_HEADER + channel + size;
     return true;
 }

@@ -12,6 +12,7 @@ enum { RECORDING_CHANNEL_LENGTH = 64, RECORDING_HEADER = 28 };
 
 typedef struct recording_event {
     int64_t number;
+    int64_t time;  /* [us] */
     int64_t bytes; /* of all of it */
     char channel[RECORDING_CHANNEL_LENGTH];
     int size;

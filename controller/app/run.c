@@ -178,6 +178,16 @@ static void hold(run *r, const limphome_robot_state_t *state) {
     r->gap = true;
 }
 
+/* What he who is in charge decides. */
+static lh_error decide_in_charge(run *r, const limphome_robot_state_t *state, lh_decision *decision) {
+    const lh_state sensed = convert_state(state);
+    const int8_t in_charge = operator_in_charge(&r->link.hand, state->lockstep != 0, bus_now());
+    if (in_charge == LIMPHOME_DECISION_T_LEARNER) {
+        return lh_controller_step(&r->controller, &sensed, decision);
+    }
+    return lh_controller_drive(&r->controller, &sensed, operator_directions(&r->link.hand), decision);
+}
+
 /* One call of the library. If it refuses the state the robot holds still; the next one may be better. */
 static void step(run *r, const limphome_robot_state_t *state, lh_decision *decision) {
     if (r->gap) {
@@ -186,14 +196,14 @@ static void step(run *r, const limphome_robot_state_t *state, lh_decision *decis
     if (state->lockstep == 0) { /* a plant in real time is watched, whatever the settings say */
         lh_controller_guard(&r->controller);
     }
-    const lh_state sensed = convert_state(state);
-    const lh_error error = lh_controller_step(&r->controller, &sensed, decision);
+    const lh_error error = decide_in_charge(r, state, decision);
     r->gap = error != LH_OK;
     if (error != LH_OK) {
         r->link.invalid = bus_now();
         notice_print(&r->invalid, bus_now(), "state %" PRId64 ": %s; holding still", state->seq, lh_error_text(error));
     } else {
-        trouble_useful(&r->trouble, LIMPHOME_STATUS_T_NONE, bus_now());
+        const bool nobody = r->link.hand.in_charge == LIMPHOME_DECISION_T_NOBODY;
+        trouble_useful(&r->trouble, nobody ? LIMPHOME_STATUS_T_OPERATOR_SILENT : LIMPHOME_STATUS_T_NONE, bus_now());
     }
 }
 
@@ -212,7 +222,9 @@ static void decide(run *r, const limphome_robot_state_t *state) {
     bus_record_state(&r->link.bus, state);
     r->decisions++;
     r->utime = state->utime;
-    const limphome_decision_t message = convert_decision(&r->controller, &decision, state);
+    limphome_decision_t message = convert_decision(&r->controller, &decision, state);
+    message.in_charge = r->link.hand.in_charge;
+    message.operator_sender = operator_sender(&r->link.hand);
     bus_send_decision(&r->link.bus, &message);
     if (ended) {
         finish_episode(r, &observed->summary, state);
@@ -282,6 +294,8 @@ static void send_status(run *r, int8_t condition) {
     status.process = LIMPHOME_STATUS_T_CONTROLLER;
     status.condition = condition;
     status.reason = r->trouble.reason;
+    status.in_charge = operator_in_charge(&r->link.hand, r->link.newest.lockstep != 0, bus_now());
+    status.operator_sender = operator_sender(&r->link.hand);
     status.session = r->link.session.session;
     status.seq = r->link.session.seq;
     status.wall_time = bus_now() - r->started;
@@ -290,6 +304,22 @@ static void send_status(run *r, int8_t condition) {
     status.episodes = r->finished;
     convert_limits(&r->controller, &status);
     bus_send_status(&r->link.bus, &status);
+}
+
+/* That another is in charge is told at once. Of nobody the trouble tells. */
+static void tell_in_charge(run *r) {
+    const int8_t in_charge = operator_in_charge(&r->link.hand, r->link.newest.lockstep != 0, bus_now());
+    if (in_charge == r->in_charge) {
+        return;
+    }
+    r->in_charge = in_charge;
+    r->status_at = 0;
+    if (in_charge != LIMPHOME_DECISION_T_NOBODY) {
+        const bool by_hand = in_charge == LIMPHOME_DECISION_T_OPERATOR;
+        notice_print(
+            &r->handovers, bus_now(),
+            by_hand ? "an operator has taken the robot by hand" : "the learner goes on from where the robot is");
+    }
 }
 
 static void send_status_each_second(run *r) {
@@ -312,6 +342,7 @@ bool run_decide(run *r, const volatile sig_atomic_t *stop) {
         if (plant_link_take(&r->link, &taken)) {
             handle_state(r, &taken);
         }
+        tell_in_charge(r);
         send_status_each_second(r);
         r->gave_up = recording_good(&r->folder.recording, r->error) && !trouble_bears(&r->trouble, bus_now(), r->error);
     }

@@ -45,8 +45,10 @@ typedef struct run {
     int64_t utime;    /* plant time of the newest state decided on [us] */
     double started;   /* monotonic [s] */
     double status_at; /* next status is due [s] */
+    int8_t in_charge; /* as was told last; a constant of decision_t */
     notice invalid;   /* states that the library refuses */
     notice restarts;
+    notice handovers;
 } run;
 
 /* Reads all that a run of this robot follows from; of a run that is to be gone on with it prints after which episode it

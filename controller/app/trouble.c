@@ -14,6 +14,8 @@ static const char *const words[TROUBLE_KINDS] = {
     [LIMPHOME_STATUS_T_TUMBLED] = "the robot has tumbled and cannot be carried back; holding still until it is righted",
     [LIMPHOME_STATUS_T_FLOODED] = "more messages come than can be looked at",
     [LIMPHOME_STATUS_T_PACED] = "the plant is held up by a person at a viewer",
+    [LIMPHOME_STATUS_T_OPERATOR_SILENT] =
+        "the operator who had the robot by hand is silent; holding still until one takes it or gives it to the learner",
 };
 
 void trouble_init(trouble *t, const settings *s, double now) {
@@ -35,7 +37,8 @@ static void set_reason(trouble *t, int8_t reason, double now) {
 
 /* Whether the plant is answered, but by rest. */
 static bool rests(const trouble *t) {
-    return t->reason == LIMPHOME_STATUS_T_NOT_ARMED || t->reason == LIMPHOME_STATUS_T_TUMBLED;
+    return t->reason == LIMPHOME_STATUS_T_NOT_ARMED || t->reason == LIMPHOME_STATUS_T_TUMBLED ||
+           t->reason == LIMPHOME_STATUS_T_OPERATOR_SILENT;
 }
 
 void trouble_useful(trouble *t, int8_t reason, double now) {

@@ -24,8 +24,8 @@ typedef struct trouble {
 
 void trouble_init(trouble *t, const settings *s, double now);
 
-/* A state was decided on at `now` [s] (reason NONE), or answered by rest as the plant is NOT_ARMED or the robot
- * TUMBLED: that lasts as long as a person takes. */
+/* A state was decided on at `now` [s] (reason NONE), or answered by rest as the plant is NOT_ARMED, the robot TUMBLED
+ * or who had it by hand OPERATOR_SILENT: that lasts as long as a person takes. */
 void trouble_useful(trouble *t, int8_t reason, double now);
 
 /* Looks at the link at `now` [s]; call often. A plant that a person holds up is waited for. Returns for how long nobody

@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "limphome/task/action.h"
+
 lh_config lh_config_default(void) {
     return (lh_config){
         .task = lh_task_config_default(),
@@ -110,29 +112,72 @@ static void execute(lh_controller *controller, const lh_state *state, lh_decisio
     }
 }
 
-lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh_decision *decision) {
+/* Whether there is something to decide on. If not, the robot is held, and the error tells whether the state is to
+ * blame. */
+static bool observe(lh_controller *controller, const lh_state *state, lh_decision *decision, lh_error *error) {
     lh_monitor *monitor = &controller->monitor;
     const lh_robot *robot = &controller->task.robot;
-    lh_error error = lh_state_validate(state, robot);
-    if (error == LH_OK && monitor->config.active && !lh_monitor_believes(monitor, robot, state)) {
+    *error = lh_state_validate(state, robot);
+    if (*error == LH_OK && monitor->config.active && !lh_monitor_believes(monitor, robot, state)) {
         hold(controller, LH_HAZARD_JUMP, decision);
-        return LH_OK;
+        return false;
     }
-    if (error == LH_OK) {
-        error = lh_task_observe(&controller->task, state, &decision->observed);
+    if (*error == LH_OK) {
+        *error = lh_task_observe(&controller->task, state, &decision->observed);
     }
-    if (error != LH_OK) {
+    if (*error != LH_OK) {
         hold(controller, LH_HAZARD_INVALID, decision);
+        return false;
+    }
+    memset(&decision->intervention, 0, sizeof decision->intervention);
+    memset(decision->velocity, 0, sizeof decision->velocity);
+    return true;
+}
+
+lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh_decision *decision) {
+    lh_error error;
+    if (!observe(controller, state, decision, &error)) {
         return error;
     }
     lh_learner_step(&controller->learner, &decision->observed, &decision->choice);
-    memset(&decision->intervention, 0, sizeof decision->intervention);
-    memset(decision->velocity, 0, sizeof decision->velocity);
     if (decision->observed.reset) {
         lh_learner_begin(&controller->learner);
-        lh_monitor_begin(monitor);
+        lh_monitor_begin(&controller->monitor);
     } else {
         execute(controller, state, decision);
+    }
+    return LH_OK;
+}
+
+static int32_t action_of(const lh_controlled *controlled, const int8_t *direction) {
+    int8_t levels[LH_MAX_ACTUATORS];
+    for (int32_t k = 0; k < controlled->count; k++) {
+        int8_t wanted = direction[controlled->index[k]];
+        levels[k] = (int8_t)(wanted == 1 || wanted == -1 ? LH_STILL + wanted : LH_STILL);
+    }
+    return lh_action_index(levels, controlled->count);
+}
+
+/* An episode that begins where the robot is begins anew at each state, so that none is ever under way. */
+lh_error lh_controller_drive(lh_controller *controller, const lh_state *state, const int8_t *direction,
+                             lh_decision *decision) {
+    lh_task *task = &controller->task;
+    lh_error error;
+    lh_task_resume(task, task->episode.number);
+    lh_learner_begin(&controller->learner);
+    if (!observe(controller, state, decision, &error)) {
+        return error;
+    }
+    lh_observed *observed = &decision->observed;
+    decision->choice = (lh_choice){.action = action_of(&task->controlled, direction)};
+    observed->reset = lh_quat_tilt(observed->attitude) > task->config.episode.tumble_tilt;
+    if (observed->reset) {
+        lh_controller_begin(controller);
+    } else {
+        lh_task_resume(task, task->episode.number);
+        lh_task_velocities(task, decision->choice.action, decision->velocity);
+        lh_monitor_check(&controller->monitor, task, state, observed->attitude, decision->choice.action,
+                         &decision->intervention, decision->velocity);
     }
     return LH_OK;
 }

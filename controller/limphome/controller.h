@@ -67,6 +67,18 @@ lh_error lh_controller_restore(lh_controller *controller, const lh_learned *lear
  * is forgotten, as with a state that the monitor does not believe. */
 lh_error lh_controller_step(lh_controller *controller, const lh_state *state, lh_decision *decision);
 
+/* One decision of a person who drives by hand, in place of the learner's: direction[robot.num_actuators] is -1 for
+ * reverse, 1 for forward, at the speeds of the task, and anything else for still; entries of actuators that are not
+ * controlled are not looked at. The monitor checks it even where it is off for the learner, so that nothing that has
+ * failed is commanded. The choice is the action that is wanted, all else in it 0.
+ *
+ * The episode under way is forgotten, and nothing is rewarded, learned or drawn: what the learner knows does not depend
+ * on what a person did. It begins anew at each state, and so at the next lh_controller_step, where the robot stands
+ * then, as after lh_controller_resume. A robot that has tumbled asks for its initial pose (observed.reset). Error as of
+ * lh_controller_step. */
+lh_error lh_controller_drive(lh_controller *controller, const lh_state *state, const int8_t *direction,
+                             lh_decision *decision);
+
 /* The decision where there is no state, or one too old to act on: the robot is held, and the step forgotten. */
 void lh_controller_hold(lh_controller *controller, lh_decision *decision);
 

@@ -1,6 +1,6 @@
 /* The board's functions where there is no robot: states of states.bin, one after the other, and velocities to
- * velocities.bin. Both are of floats: a state is position, orientation, then position, effort and failed (0 or 1) of each
- * actuator; a velocity is one of each actuator. */
+ * velocities.bin. Both are of floats: a state is position, orientation, then position, effort and failed (0 or 1) of
+ * each actuator; a velocity is one of each actuator. */
 #include <string.h>
 
 #include "board.h"

@@ -35,9 +35,14 @@ static bool join(int receiver, const udpm_url *url) {
            set(receiver, IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof membership);
 }
 
+/* The one that is there already, or a new one. */
+static int datagram_socket(int given) {
+    return given > 0 ? given : socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+}
+
 static bool open_group(udpm *bus, const udpm_url *url, char error[ERROR_LENGTH]) {
-    bus->sender = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    bus->receiver = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    bus->sender = datagram_socket(url->sender);
+    bus->receiver = datagram_socket(url->receiver);
     if (bus->sender < 0 || bus->receiver < 0) {
         return fail_with(error, "no socket: %s", strerror(errno));
     }

@@ -44,7 +44,9 @@ typedef struct udpm {
 
 /* Joins the bus at `url`: udpm://GROUP:PORT[?ttl=N&recv_buf_size=BYTES], or memq://, a queue of its own that nobody
  * else hears. NULL or "" stands for the environment's LCM_DEFAULT_URL, and without one for
- * udpm://239.255.76.67:7667?ttl=0. False, with the reason in `error` and nothing left open, on failure. */
+ * udpm://239.255.76.67:7667?ttl=0. With receiver=DESCRIPTOR&sender=DESCRIPTOR it joins by datagram sockets that were
+ * made elsewhere, such as in a network namespace that this process is not in, and owns them from then on. False, with
+ * the reason in `error` and nothing left open, on failure. */
 bool udpm_open(udpm *bus, const char *url, char error[ERROR_LENGTH]);
 
 void udpm_close(udpm *bus);

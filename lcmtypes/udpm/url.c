@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <limits.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,7 +39,31 @@ static bool parse_group(char *text, struct sockaddr_in *group, char error[ERROR_
     return true;
 }
 
-/* ttl=N&recv_buf_size=BYTES in any order. */
+/* What may stand behind the question mark. */
+static const struct {
+    const char *name;
+    long largest;
+    size_t field; /* an int of udpm_url */
+} OPTIONS[] = {
+    {"ttl", UINT8_MAX, offsetof(udpm_url, ttl)},
+    {"recv_buf_size", INT_MAX, offsetof(udpm_url, receive_buffer)},
+    {"receiver", INT_MAX, offsetof(udpm_url, receiver)},
+    {"sender", INT_MAX, offsetof(udpm_url, sender)},
+};
+enum { NUM_OPTIONS = sizeof OPTIONS / sizeof OPTIONS[0] };
+
+static bool parse_option(const char *name, const char *value, udpm_url *url, char error[ERROR_LENGTH]) {
+    for (int i = 0; i < NUM_OPTIONS; i++) {
+        if (strcmp(name, OPTIONS[i].name) == 0) {
+            int *field = (int *)(void *)((char *)url + OPTIONS[i].field);
+            return parse_number(value, OPTIONS[i].largest, field) ||
+                   fail_with(error, "%s=%.64s: must be 0 to %ld", name, value, OPTIONS[i].largest);
+        }
+    }
+    return fail_with(error, "%.64s: options are ttl, recv_buf_size, receiver and sender", name);
+}
+
+/* NAME=VALUE&NAME=VALUE... in any order. */
 static bool parse_options(char *text, udpm_url *url, char error[ERROR_LENGTH]) {
     char *rest = NULL;
     for (char *option = strtok_r(text, "&", &rest); option != NULL; option = strtok_r(NULL, "&", &rest)) {
@@ -47,12 +72,8 @@ static bool parse_options(char *text, udpm_url *url, char error[ERROR_LENGTH]) {
             return fail_with(error, "%.64s: an option is NAME=VALUE", option);
         }
         *value++ = '\0';
-        const bool is_ttl = strcmp(option, "ttl") == 0;
-        if (!is_ttl && strcmp(option, "recv_buf_size") != 0) {
-            return fail_with(error, "%.64s: options are ttl and recv_buf_size", option);
-        }
-        if (!parse_number(value, is_ttl ? UINT8_MAX : INT_MAX, is_ttl ? &url->ttl : &url->receive_buffer)) {
-            return fail_with(error, "%s=%.64s: must be 0 to %d", option, value, is_ttl ? UINT8_MAX : INT_MAX);
+        if (!parse_option(option, value, url, error)) {
+            return false;
         }
     }
     return true;

@@ -11,6 +11,8 @@ typedef struct udpm_url {
     struct sockaddr_in group; /* multicast address and port */
     int ttl;                  /* routers it passes, and 1; 0: it stays on this machine */
     int receive_buffer;       /* [bytes]; 0: the system's default */
+    int receiver;             /* a datagram socket that is there already; 0: one is made */
+    int sender;               /* likewise */
 } udpm_url;
 
 /* False, with the reason in `error`, for anything else. */

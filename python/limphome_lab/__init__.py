@@ -6,6 +6,7 @@ room but those named here (test/lab/test_rooms.py):
     show     a run, while it goes on or afterwards      -
     run      trains, evaluates, launches                show
     view     the robot in a browser, live or recorded   show, run
+    gym      the task for learners of others            run
     export   a run as files of other tools              show
     study    many runs side by side                     show, run
     measure  simulator, speed, the tests themselves     run

@@ -38,6 +38,15 @@ def program(name):
     return Path(found)
 
 
+def library(name):
+    """File of the shared library limphome_NAME, which comes along with the programs."""
+    programs = program("controller").resolve().parent
+    file = programs.parent / "lib" / "limphome" / f"liblimphome_{name}.so"
+    if not file.is_file():
+        raise Ending(f"{file} is missing beside the programs in {programs}; build or install them anew")
+    return file
+
+
 def new_run(name):
     """A folder below runs/ that is not there yet, named after what runs and the time; another may begin this second."""
     stem = f"{name}-{time.strftime('%Y%m%d-%H%M%S')}"

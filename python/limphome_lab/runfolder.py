@@ -57,6 +57,10 @@ class RunFolder:
         """Takes the folder for this process until it ends; InputError where another works there."""
         self._held = lock.take(self.lock)
 
+    def leave(self):
+        """Gives it up before that."""
+        self._held.close()
+
     def others(self):
         """All that lies there but the lock."""
         return [file for file in self.path.iterdir() if file != self.lock]
@@ -156,7 +160,11 @@ def setting_options(config, assignments):
 
 def resolve_settings(config, assignments):
     """Text of an INI file with every setting, checked by the controller."""
-    return ask("controller", *setting_options(config, assignments), "--print-settings")
+    try:
+        return ask("controller", *setting_options(config, assignments), "--print-settings")
+    except InputError as error:
+        hint = "" if Path(config).exists() else command.did_you_mean(config, ".ini")
+        raise InputError(f"{error}{hint}") from error
 
 
 def find_robot(robot):
@@ -182,6 +190,9 @@ def create(out, config, robot, assignments, controller_options=(), anew=False, r
         raise InputError(f"simulator.pace = real_time: the plant would wait for ever to be armed; {launch} arms it")
     named = ["--robot", robot, *describe.options(packages)]
     options = [*setting_options(config, assignments), *named, "--check"]
+    if not robot.exists():
+        hint = command.did_you_mean(robot, ".urdf")
+        raise InputError(f"{robot}: cannot be opened: No such file or directory{hint}")
     ask("controller", *options, *controller_options)
     ask("simulator", *options, tell=False)  # of the same robot, so the same notices
     meshes = dict(line.split("\t") for line in ask("controller", *named, "--list-meshes").splitlines())

@@ -7,12 +7,11 @@
 namespace limphome {
 namespace {
 
-constexpr double static_deflection = 1e-3;    // of the ground under the robot's weight on its crawlers [m]
-constexpr double start_heading = 0.5 * M_PI;  // [rad]
-constexpr double settling_time = 0.5;         // [s]
-constexpr double longest_settling = 10;       // on uneven ground [s]
-constexpr double watched = 0.1;               // for so long, until it stays where it is [s]
-constexpr double at_rest = 1e-4;              // at the mean over that time [m/s, rad/s]
+constexpr double static_deflection = 1e-3;  // of the ground under the robot's weight on its crawlers [m]
+constexpr double settling_time = 0.5;       // [s]
+constexpr double longest_settling = 10;     // on uneven ground [s]
+constexpr double watched = 0.1;             // for so long, until it stays where it is [s]
+constexpr double at_rest = 1e-4;            // at the mean over that time [m/s, rad/s]
 constexpr int ground_group = 1, robot_group = 2;
 
 // Critically damped at the deflection above, so that the robot does not bounce.
@@ -73,12 +72,14 @@ void Pipeline::solveConstraints(btContactSolverInfo &info) {
     solver_.solve(robot_.multibody(), joints, contacts, info.m_timeStep);
 }
 
-Scene::Scene(const RobotModel &model, const settings &s, const Ground &ground, const std::vector<Failure> &failures)
+Scene::Scene(const RobotModel &model, const settings &s, const Ground &ground, const std::vector<Failure> &failures,
+             const Start &start)
     : robot(model, {s.simulator.friction_crawler, s.simulator.friction_arm, s.simulator.friction_body}),
       drives(make_drives(model, s)),
       dispatcher_(&configuration_),
       ground_shape_(btVector3(0, 0, 1), 0),
       ground_(ground),
+      start_(start),
       pipeline_(&dispatcher_, &broadphase_, &unused_solver_, &configuration_, robot, ground,
                 Solver(static_cast<int>(s.simulator.solver_iterations), ground_stiffness(model))),
       time_step_(s.simulator.time_step_s) {
@@ -113,13 +114,20 @@ void Scene::set_gravity(const Eigen::Vector3d &gravity) {
     pipeline_.setGravity(to_bullet(gravity));
 }
 
+// The point above the start that lies `height` above the incline, across it [m].
+Eigen::Vector3d Scene::at_start(double height) const {
+    const Eigen::Vector3d up = ground_.incline();
+    return {start_.x, start_.y, (height - up.x() * start_.x - up.y() * start_.y) / up.z()};
+}
+
 // Along the incline, as low as may be without being inside uneven ground.
 void Scene::place() {
     const Eigen::Vector3d up = ground_.incline();
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up) *
-                    Eigen::AngleAxisd(start_heading, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    pose.translation().z() = ground_.highest() / up.z() - static_deflection;
+                    Eigen::AngleAxisd(start_.heading, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    pose.translation() = at_start(ground_.highest());
+    pose.translation().z() -= static_deflection;
     robot.set_pose(pose);
 }
 
@@ -147,8 +155,8 @@ void Scene::hold_in_place() {
     body.setBaseVel(to_bullet(velocity - (sliding - up.dot(sliding) * up)));
 
     Eigen::Isometry3d pose = robot.pose();
-    pose.translation() = Eigen::Vector3d(0, 0, pose.translation().dot(up) / up.z());
-    const double turned = std::atan2(pose(1, 0), pose(0, 0)) - start_heading;
+    pose.translation() = at_start(pose.translation().dot(up));
+    const double turned = std::atan2(pose(1, 0), pose(0, 0)) - start_.heading;
     pose.linear() = Eigen::AngleAxisd(-turned, up) * pose.linear();
     robot.set_pose(pose);
 }
@@ -176,7 +184,7 @@ void Scene::sink_in(double duration) {
     }
 }
 
-// Lets the robot come to its equilibrium, then puts it at the origin, at rest.
+// Lets the robot come to its equilibrium, then puts it where it is to start, at rest.
 void Scene::settle() {
     sink_in(ground_.level() ? settling_time : settling_time - watched);
     for (double time = settling_time; !ground_.level() && time < longest_settling; time += watched) {
@@ -188,8 +196,9 @@ void Scene::settle() {
     }
     robot.multibody().clearVelocities();
     const Eigen::Isometry3d pose = robot.pose();
-    const double turned = std::atan2(pose(1, 0), pose(0, 0)) - start_heading;
-    const Eigen::Isometry3d back = Eigen::AngleAxisd(-turned, Eigen::Vector3d::UnitZ()) *
+    const double turned = std::atan2(pose(1, 0), pose(0, 0)) - start_.heading;
+    const Eigen::Isometry3d back = Eigen::Translation3d(start_.x, start_.y, 0) *
+                                   Eigen::AngleAxisd(-turned, Eigen::Vector3d::UnitZ()) *
                                    Eigen::Translation3d(-pose.translation().x(), -pose.translation().y(), 0);
     robot.set_pose(back * pose);
     for (Contact &contact : pipeline_.contacts) {

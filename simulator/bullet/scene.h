@@ -15,6 +15,7 @@
 #include "model/drive.h"
 #include "model/failure.h"
 #include "model/ground.h"
+#include "model/randomisation.h"
 
 namespace limphome {
 
@@ -46,10 +47,10 @@ class Pipeline final : public btMultiBodyDynamicsWorld {
 
 class Scene {
    public:
-    // The robot stands on `ground` at the origin, facing +y, at rest, its arm at its home angles; what fails at time 0
-    // has failed. `ground` must outlive the scene.
+    // The robot stands on `ground` at `start`, at rest, its arm at its home angles; what fails at time 0 has failed.
+    // `ground` must outlive the scene.
     Scene(const RobotModel &model, const settings &configuration, const Ground &ground,
-          const std::vector<Failure> &failures);
+          const std::vector<Failure> &failures, const Start &start);
 
     void fail(const Failure &failure);
     void set_gravity(const Eigen::Vector3d &gravity);
@@ -61,6 +62,7 @@ class Scene {
     std::vector<Drive> drives;
 
    private:
+    Eigen::Vector3d at_start(double height) const;
     void place();
     void settle();
     void sink_in(double duration);
@@ -74,6 +76,7 @@ class Scene {
     btStaticPlaneShape ground_shape_;
     btCollisionObject plane_;
     const Ground &ground_;
+    const Start start_;
     Pipeline pipeline_;
     double time_step_;
 };

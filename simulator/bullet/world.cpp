@@ -42,7 +42,8 @@ std::unique_ptr<Scene> World::make_scene(int64_t episode) const {
     settings configuration = settings_;
     change_ground(configuration, episode);
     randomise(model, configuration, episode);
-    return std::make_unique<Scene>(model, configuration, ground_, failures_);
+    const Start start = draw_start(model, configuration, episode);
+    return std::make_unique<Scene>(model, configuration, ground_, failures_, start);
 }
 
 void World::reset(int64_t episode) {

@@ -21,13 +21,14 @@ class Scene;
 
 class World final : public Machine {
    public:
-    // The robot stands at the origin, facing +y, at rest, its arm at its home angles. Throws std::runtime_error if what
-    // is to fail is not part of the robot, or the robot cannot be simulated.
+    // The robot stands at the origin, facing +y, at rest, its arm at its home angles, as far as [randomisation] draws
+    // nothing else. Throws std::runtime_error if what is to fail is not part of the robot, or the robot cannot be
+    // simulated.
     World(const RobotModel &model, const settings &configuration);
     ~World() override;
 
     int num_actuators() const override { return static_cast<int>(model_.actuators.size()); }
-    // Back to the state after construction, bit by bit; gravity too.
+    // Back to the state after construction, bit by bit; gravity too. What is drawn at random is that of `episode`.
     void reset(int64_t episode) override;
     // Rates of Table 1.
     void command(const double velocity[max_actuators]) override;

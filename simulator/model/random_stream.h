@@ -13,7 +13,8 @@ enum class Purpose {
     randomisation = 3,
     sensor_bias = 4,
     sensor_noise = 5,
-    shooting = 6
+    shooting = 6,
+    start = 7
 };
 
 // Depends on nothing but what it is made from, so that a resumed run draws what an unbroken one draws.

@@ -1,4 +1,4 @@
-// Robots and grounds that differ a little from reset to reset.
+// Robots, grounds and initial poses that differ a little from reset to reset.
 #pragma once
 
 #include <settings.h>
@@ -13,5 +13,15 @@ namespace limphome {
 // from the ranges that the settings give about what `model` and `configuration` hold. Depends on seed and episode
 // alone.
 void randomise(RobotModel &model, settings &configuration, int64_t episode);
+
+// Where the robot is put.
+struct Start {
+    double x, y;     // [m]
+    double heading;  // from the world's x axis [rad]
+};
+
+// Draws where the robot is put, uniformly about the origin and +y, and how it holds its arm: the home angles of
+// `model`. Depends on seed and episode alone.
+Start draw_start(RobotModel &model, const settings &configuration, int64_t episode);
 
 }  // namespace limphome

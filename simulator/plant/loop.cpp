@@ -270,7 +270,9 @@ double Loop::tell() {
     link_.pace().pass(now);
     if (link_.pace().unheeded() && !told_unheeded_) {
         told_unheeded_ = true;
-        std::fprintf(stderr, "LIMPHOME_PACE is not heeded: a plant in real time can be neither paused nor slowed\n");
+        std::fprintf(
+            stderr,
+            "what comes by LIMPHOME_PACE is not heeded: a plant in real time can be neither paused nor slowed\n");
     }
     if (link_.pace().told() != pace_) {  // at once, as the controller waits for what comes next
         pace_ = link_.pace().told();

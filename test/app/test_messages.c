@@ -73,6 +73,43 @@ static message_verdict judge_policy(const limphome_policy_t *policy, int surplus
     return message_decode_policy(bytes, (size_t)size + (size_t)surplus, &decoded);
 }
 
+static limphome_operate_t good_operate(void) {
+    return (limphome_operate_t){
+        .sender = 7, .action = LIMPHOME_OPERATE_T_TAKE, .num_actuators = 5, .direction = {-1, 0, 1}};
+}
+
+static message_verdict judge_operate(const limphome_operate_t *operate, int surplus) {
+    unsigned char bytes[SIZE] = {0};
+    const int size = limphome_operate_t_encode(bytes, 0, SIZE, operate);
+    limphome_operate_t decoded;
+    return message_decode_operate(bytes, (size_t)size + (size_t)surplus, &decoded);
+}
+
+START_TEST(what_an_operator_wants_must_make_sense) {
+    limphome_operate_t operate = good_operate();
+    ck_assert_int_eq(judge_operate(&operate, 0), MESSAGE_GOOD);
+    ck_assert_int_eq(judge_operate(&operate, 1), MESSAGE_MALFORMED);
+    ck_assert_int_eq(judge_operate(&operate, -1), MESSAGE_MALFORMED);
+#define BAD(field, value)                                                \
+    do {                                                                 \
+        operate = good_operate();                                        \
+        operate.field = value;                                           \
+        ck_assert_int_eq(judge_operate(&operate, 0), MESSAGE_MALFORMED); \
+    } while (0)
+    BAD(sender, 0);
+    BAD(action, 2);
+    BAD(action, -1);
+    BAD(num_actuators, 0);
+    BAD(num_actuators, 9);
+    BAD(direction[0], 2);
+    BAD(direction[4], -2);
+#undef BAD
+    operate = good_operate();
+    operate.direction[5] = 100; /* not in use */
+    ck_assert_int_eq(judge_operate(&operate, 0), MESSAGE_GOOD);
+}
+END_TEST
+
 START_TEST(good_messages_pass) {
     const limphome_robot_state_t state = good_state();
     const limphome_policy_t policy = good_policy();
@@ -210,6 +247,7 @@ END_TEST
 int main(void) {
     TCase *cases = tcase_create("messages");
     tcase_add_test(cases, good_messages_pass);
+    tcase_add_test(cases, what_an_operator_wants_must_make_sense);
     tcase_add_test(cases, length_must_be_exact);
     tcase_add_test(cases, another_type_is_malformed);
     tcase_add_test(cases, counts_must_fit);

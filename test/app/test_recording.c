@@ -205,6 +205,74 @@ START_TEST(a_long_one_is_thinned) {
 }
 END_TEST
 
+/* Adds a state that the plant sent when its clock told `utime`. */
+static void add_state_at(recording *r, int64_t utime) {
+    unsigned char state[] = "a state";
+    recording_at(r, utime);
+    recording_add(r, LIMPHOME_CHANNEL_STATE, state, 7);
+}
+
+static void expect_times(const int64_t *expected, int count) {
+    FILE *file = fopen(path, "rb");
+    recording_event e;
+    for (int i = 0; i < count; i++) {
+        ck_assert(recording_event_read(file, &e));
+        ck_assert_int_eq(e.time, expected[i]);
+    }
+    ck_assert(!recording_event_read(file, &e));
+    fclose(file);
+}
+
+/* A clock that goes on is followed, one that begins anew or lies goes on from there; what comes before the plant is
+ * heard, and between two states, is of the time before. */
+START_TEST(log_time_is_plant_time) {
+    static const int64_t hour = 3600000000;
+    recording r;
+    ck_assert(recording_create(&r, path, error));
+    unsigned char status[] = "a status";
+    recording_add(&r, LIMPHOME_CHANNEL_STATUS, status, 8);
+    add_state_at(&r, hour);
+    add_state_at(&r, hour + 500000);
+    recording_add(&r, LIMPHOME_CHANNEL_STATUS, status, 8);
+    add_state_at(&r, hour + 500000);
+    add_state_at(&r, 0); /* the next session */
+    add_state_at(&r, 500000);
+    add_state_at(&r, INT64_MIN);
+    add_state_at(&r, 100);
+    add_state_at(&r, INT64_MAX);
+    add_state_at(&r, 0);
+    add_state_at(&r, 200);
+    ck_assert(recording_close(&r, error));
+    expect_times(
+        (int64_t[]){0, 0, 500000, 500000, 500000, 500000, 1000000, 1000000, 1000100, INT64_MAX, INT64_MAX, INT64_MAX},
+        12);
+}
+END_TEST
+
+START_TEST(log_time_goes_on_where_the_file_does) {
+    recording r;
+    ck_assert(recording_create(&r, path, error));
+    add_state_at(&r, 0);
+    add_state_at(&r, 500000);
+    add_episode(&r, 1);
+    const recording_place place = recording_end(&r);
+    add_state_at(&r, 1000000);
+    ck_assert(recording_cut(&r, place, error)); /* and the plant begins anew */
+    add_state_at(&r, 700000);
+    add_episode(&r, 2);
+    add_state_at(&r, 1000000);
+    ck_assert(recording_close(&r, error));
+    recording_place end;
+    ck_assert(recording_find(path, 2, &end, error));
+    ck_assert_int_eq(end.time, 500000);
+    ck_assert(recording_go_on(&r, path, end, error));
+    add_state_at(&r, 90000000);
+    add_state_at(&r, 90500000);
+    ck_assert(recording_close(&r, error));
+    expect_times((int64_t[]){0, 500000, 500000, 500000, 500000, 500000, 500000, 500000, 1000000}, 9);
+}
+END_TEST
+
 START_TEST(a_full_disk_is_told) {
     recording r;
     ck_assert(recording_create(&r, "/dev/full", error));
@@ -235,6 +303,8 @@ int main(void) {
     tcase_add_test(cases, going_on_leaves_no_trace_of_the_tear);
     tcase_add_test(cases, a_running_one_is_cut_back);
     tcase_add_test(cases, a_long_one_is_thinned);
+    tcase_add_test(cases, log_time_is_plant_time);
+    tcase_add_test(cases, log_time_goes_on_where_the_file_does);
     tcase_add_test(cases, a_full_disk_is_told);
     tcase_add_test(cases, nothing_is_recorded_without_a_file);
     return run_suite("recording", cases);

@@ -32,6 +32,17 @@ static void step(void) {
     }
 }
 
+static void drive(void) {
+    lh_state state;
+    lh_decision decision;
+    int8_t direction[LH_MAX_ACTUATORS];
+    Frama_C_make_unknown((char *)&state, sizeof state);
+    Frama_C_make_unknown((char *)direction, sizeof direction);
+    if (lh_controller_drive(&controller, &state, direction, &decision) == LH_OK) {
+        //@ assert 0 <= decision.choice.action < controller.learner.as.q_learning.num_actions;
+    }
+}
+
 static void hold(void) {
     lh_decision decision;
     lh_controller_hold(&controller, &decision);
@@ -57,7 +68,7 @@ int main(void) {
     /* not unrolled, as it has no end; a bound for EVA to try, below the limit of steps */
     //@ loop unroll 0; loop widen_hints controller.task.episode.steps, 1999;
     while (Frama_C_interval(0, 1)) {
-        switch (Frama_C_interval(0, 5)) {
+        switch (Frama_C_interval(0, 6)) {
             case 0:
                 lh_controller_begin(&controller);
                 break;
@@ -72,6 +83,9 @@ int main(void) {
                 break;
             case 4:
                 hold();
+                break;
+            case 5:
+                drive();
                 break;
             default:
                 step();

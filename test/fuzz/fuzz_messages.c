@@ -1,5 +1,5 @@
-/* States, policies and checkpoints as bytes from the network or a file: refused, or good for the library. What is good
- * encodes to the same bytes. */
+/* States, policies, checkpoints and what operators want as bytes from the network or a file: refused, or good for the
+ * library. What is good encodes to the same bytes. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,7 +11,7 @@
 #include "sound.h"
 
 enum { LARGEST = LEARNED_LARGEST };
-enum kind { STATE, POLICY, CHECKPOINT, KINDS };
+enum kind { STATE, POLICY, CHECKPOINT, OPERATE, KINDS };
 
 static lh_controller controller;
 static learned saved;
@@ -79,14 +79,31 @@ static void decode_checkpoint(const uint8_t *bytes, size_t size) {
     }
 }
 
+static void decode_operate(const uint8_t *bytes, size_t size) {
+    limphome_operate_t message;
+    if (message_decode_operate(bytes, size, &message) == MESSAGE_GOOD) {
+        const lh_state state = crawler_state(0.0f, 0.0f, 1.5f);
+        lh_decision decision;
+        FUZZ_EXPECT(lh_controller_drive(&controller, &state, message.direction, &decision) == LH_OK);
+        fuzz_step(&controller, &state);
+        uint8_t again[LARGEST];
+        FUZZ_EXPECT(limphome_operate_t_encode(again, 0, (int)size, &message) == (int)size);
+        FUZZ_EXPECT(memcmp(again, bytes, size) == 0);
+    }
+}
+
 /* A message that is accepted. */
 static size_t good_message(enum kind kind, uint8_t bytes[LARGEST]) {
     const limphome_robot_state_t state = {.num_actuators = 5, .orientation = {1}};
+    const limphome_operate_t operate = {.sender = 1, .num_actuators = 5};
     learned_save(&saved, &controller, 7, 0, 99);
     int size = 0;
     switch (kind) {
         case STATE:
             size = limphome_robot_state_t_encode(bytes, 0, LARGEST, &state);
+            break;
+        case OPERATE:
+            size = limphome_operate_t_encode(bytes, 0, LARGEST, &operate);
             break;
         case POLICY:
             size = learned_encode_policy(&saved, bytes, LARGEST);
@@ -100,7 +117,8 @@ static size_t good_message(enum kind kind, uint8_t bytes[LARGEST]) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    static void (*const decode[KINDS])(const uint8_t *, size_t) = {decode_state, decode_policy, decode_checkpoint};
+    static void (*const decode[KINDS])(const uint8_t *, size_t) = {decode_state, decode_policy, decode_checkpoint,
+                                                                   decode_operate};
     fuzz_input in = {data, size};
     const uint8_t choice = fuzz_byte(&in);
     start((choice & 32) != 0 ? LH_PLANNER : LH_Q_LEARNING);
@@ -116,7 +134,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         length = (length + (size_t)fuzz_byte(&in) - 128) % LARGEST;
     }
     fuzz_patch(&in, bytes, length, 1);
-    if (kind != STATE) {
+    if (kind == POLICY || kind == CHECKPOINT) {
         checksum_seal(bytes, (int)length); /* or nothing would get past the checksum */
     }
     uint8_t *exact = malloc(length); /* for the sanitizer to see a read beyond the end */

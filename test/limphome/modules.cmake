@@ -7,7 +7,7 @@ set(limphome_test_modules
   learning/boltzmann learning/learner learning/motion_model learning/network learning/planned learning/planner
   learning/planning learning/posture_values learning/q_learning
   safety/collision safety/forecast safety/interlock safety/monitor safety/plausibility safety/solid safety/stuck
-  controller limits runs)
+  controller drive limits runs)
 
 # Adds the program test_TOPIC of a module, whose tests lie in `folder`, with further sources; names the topic in `result`.
 function(limphome_test module folder result)

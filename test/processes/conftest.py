@@ -1,6 +1,7 @@
 """Runs that the tests share. All of them talk on a loopback of their own."""
 
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -84,3 +85,27 @@ def smoke_run(tmp_path_factory):
     out = tmp_path_factory.mktemp("smoke") / "run"
     train(out)
     return RunFolder(out)
+
+
+@pytest.fixture
+def launched(smoke_run, tmp_path, monkeypatch):
+    """scripts/launch, in real time, with its registry to itself."""
+    from bus import FAST, settings
+
+    from limphome_lab import registry
+
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    process = start_script(
+        "launch",
+        "--arm",
+        "--policy",
+        smoke_run.path,
+        *settings("episode.step_limit=2", *FAST),
+    )
+    wait_until(process, registry.running)
+    pair = registry.running()[0]
+    yield process, pair
+    if process.poll() is None:
+        process.send_signal(signal.SIGINT)
+    process.communicate(timeout=TIME_LIMIT_S)
+    shutil.rmtree(pair["run"])

@@ -1,12 +1,13 @@
 """A planner in the processes: what it leaves, how it is gone on with, and for what it may be used."""
 
 import json
+import shutil
 
 import pytest
 
-from conftest import run_script
+from conftest import ROOT, run_script
 from limphome import planner_checkpoint_t, planner_t
-from limphome_lab.channels import DECISION, PLANNER, POLICY
+from limphome_lab.channels import DECISION, PLANNER, POLICY, STATE
 from limphome_lab.messages import recorded
 from limphome_lab.runfolder import RunFolder
 
@@ -78,16 +79,62 @@ def test_evaluation_drives_without_learning(run, selection):
 
 
 @pytest.mark.parametrize(
-    ("assignment", "exit_code", "reason"),
+    ("assignment", "reason"),
     [
-        ("learner.kind=q_learning", 2, "is of another kind than [learner] kind"),
-        ("planner.mechanics=none", 1, "what was learned is for other actuators, speeds, ranges, periods or mechanics"),
-        ("episode.decision_period_s=0.25", 1, "what was learned is for other actuators, speeds, ranges, periods"),
+        ("learner.kind=q_learning", "learner.kind = q_learning: {name} has learned with planner"),
+        ("planner.mechanics=none", "planner.mechanics = none: {name} has learned with quasi_static"),
+        ("episode.decision_period_s=0.25", "episode.decision_period_s = 0.25: {name} has learned with 0.5"),
+        ("action.joint_speed=0.2", "action.joint_speed = 0.2: {name} has learned with 0.3"),
+        ("failure.actuator=right_crawler", "{name} has learned to do without left_crawler"),
+        ("failure.at_s=5", "no actuator cannot be driven"),
     ],
 )
-def test_evaluation_for_another_purpose_is_refused(run, assignment, exit_code, reason):
+def test_evaluation_for_another_purpose_is_refused(run, assignment, reason):
     result = run_script("evaluate", run.path, "--episodes", 1, "--set", assignment, check=False)
-    assert result.returncode == exit_code and reason in result.stderr
+    assert result.returncode == 2 and reason.format(name=run.path.name) in result.stderr
+
+
+@pytest.mark.parametrize("change", [("quasi_static", "none"), ("decision_period_s = 0.5", "decision_period_s = 0.25")])
+def test_the_controller_itself_refuses_what_is_for_another_purpose(run, tmp_path, change):
+    copy = tmp_path / "run"
+    shutil.copytree(run.path, copy)
+    config = copy / "config.ini"
+    config.write_text(config.read_text().replace(*change))
+    result = run_script("evaluate", copy, "--episodes", 1, check=False)
+    assert result.returncode == 1
+    assert "what was learned is for other actuators, speeds, ranges, periods or mechanics" in result.stderr
+
+
+def evaluated(run, *arguments):
+    return json.loads(run_script("evaluate", *run, *arguments, "--json").stdout)
+
+
+def test_greedy_episodes_begin_from_poses_of_their_own(run):
+    summary = evaluated([run.path], "--episodes", 4)
+    messages = RunFolder(run.path / "evaluation").messages
+    first = {state.actuator_position for _, state in recorded(messages, STATE) if state.seq == 0}
+    assert len(first) >= 4  # and one before the controller has asked for any
+    assert evaluated([run.path], "--episodes", 4, "--seed", 9) != summary
+    assert evaluated([run.path], "--episodes", 4) == summary
+
+
+def test_one_pose_can_be_asked_for(run):
+    evaluated([run.path], "--episodes", 2, "--set", "randomisation.joint_rad=0")
+    settings = RunFolder(run.path / "evaluation").settings()
+    assert settings["episode"]["reset_every"] == str(RESET_EVERY) and float(settings["randomisation"]["position_m"]) == 0
+
+
+def test_an_evaluation_takes_another_world_but_not_another_learner(run):
+    evaluated([run.path], "--episodes", 2, "--config", ROOT / "config" / "rough.ini")
+    settings = RunFolder(run.path / "evaluation").settings()
+    assert settings["ground"]["rough_amplitude_m"] == "0.08" and settings["learner"]["kind"] == "planner"
+
+
+def test_several_runs_are_evaluated_one_after_the_other(run, smoke_run):
+    first, second = evaluated([run.path, smoke_run.path], "--episodes", 2, "--set", "episode.step_limit=50")
+    assert first["run"] == str(run.path) and second["run"] == str(smoke_run.path)
+    result = run_script("evaluate", run.path, smoke_run.path, "--out", run.path / "one", check=False)
+    assert result.returncode == 2 and "--out is for one RUN" in result.stderr
 
 
 def test_planners_have_no_mean(run):
@@ -97,4 +144,4 @@ def test_planners_have_no_mean(run):
 
 def test_a_policy_of_q_learning_is_refused_to_a_planner(smoke_run):
     result = run_script("evaluate", smoke_run.path, "--set", "learner.kind=planner", check=False)
-    assert result.returncode == 2 and "is of another kind than [learner] kind" in result.stderr
+    assert result.returncode == 2 and "has learned with q_learning" in result.stderr

@@ -5,12 +5,10 @@ import math
 import os
 import shutil
 import signal
-import subprocess
 
 import pytest
-from bus import FAST, settings
 
-from conftest import ROOT, TIME_LIMIT_S, run_script, start_script, wait_until
+from conftest import TIME_LIMIT_S, run_script, start_script, wait_until
 from limphome import checkpoint_t, policy_t
 from limphome_lab import registry
 from limphome_lab.channels import DECISION, STATE
@@ -41,11 +39,12 @@ def test_evaluation_goes_on_where_the_training_ended(smoke_run, selection):
     assert [row.episode for row in RunFolder(smoke_run.path / "evaluation").read_episodes()] == [31, 32]
     decisions = decisions_of_evaluation(smoke_run)
     assert not any(decision.learned for decision in decisions)
+    chosen = [decision for decision in decisions if decision.step < 20]  # in the state of the last nothing is chosen
     if selection == "greedy":
-        assert all(decision.probability == 1 and decision.q == decision.q_max for decision in decisions[:-1])
+        assert all(decision.probability == 1 and decision.q == decision.q_max for decision in chosen)
     else:
-        assert any(decision.q < decision.q_max for decision in decisions)
-    first = [decision.temperature for decision in decisions if decision.episode == 31]
+        assert any(decision.q < decision.q_max for decision in chosen)
+    first = [decision.temperature for decision in chosen if decision.episode == 31]
     assert first == pytest.approx([1 / math.log(31.1)] * len(first), rel=1e-6)
 
 
@@ -122,26 +121,6 @@ def test_evaluation_with_another_robots_policy_is_refused(smoke_run, tmp_path):
     assert "what was learned is for other actuators, speeds" in result.stderr
 
 
-@pytest.fixture
-def launched(smoke_run, tmp_path, monkeypatch):
-    """scripts/launch, in real time, with its registry to itself."""
-    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    process = start_script(
-        "launch",
-        "--arm",
-        "--policy",
-        smoke_run.path,
-        *settings("episode.step_limit=2", *FAST),
-    )
-    wait_until(process, registry.running)
-    pair = registry.running()[0]
-    yield process, pair
-    if process.poll() is None:
-        process.send_signal(signal.SIGINT)
-    process.communicate(timeout=TIME_LIMIT_S)
-    shutil.rmtree(pair["run"])
-
-
 def test_launch_tells_of_episodes_until_ctrl_c(launched):
     process, pair = launched
     wait_until(process, lambda: len(RunFolder(pair["run"]).read_episodes()) >= 2)
@@ -177,37 +156,3 @@ def test_spy_without_a_pair(tmp_path):
     environment = {**os.environ, "XDG_RUNTIME_DIR": str(tmp_path)}
     result = run_script("spy", "--text", check=False, env=environment)
     assert result.returncode == 2 and "nothing is running" in result.stderr
-
-
-NEEDED = ("javac", "Xvfb", "xdotool")
-
-
-@pytest.mark.skipif(not all(map(shutil.which, NEEDED)), reason=f"needs {', '.join(NEEDED)}")
-def test_spy_window_decodes_our_types(launched):
-    server = subprocess.Popen(
-        ["Xvfb", "-displayfd", "1", "-screen", "0", "1000x700x24", "-nolisten", "tcp"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-    )
-    environment = {**os.environ, "DISPLAY": f":{server.stdout.readline().strip()}"}
-
-    def xdotool(*words):
-        return subprocess.run(["xdotool", *words], env=environment, capture_output=True, text=True).stdout.split()
-
-    def open_first_channel():
-        """A double click on the first row of the table opens a window that decodes the channel."""
-        xdotool("mousemove", "60", "28", "click", "--repeat", "2", "--delay", "60", "1")
-        return xdotool("search", "--name", "^LIMPHOME_")
-
-    spy = start_script("spy", env=environment)
-    try:
-        wait_until(spy, lambda: xdotool("search", "--name", "^LCM Spy$"))
-        wait_until(spy, open_first_channel)
-    finally:
-        spy.terminate()
-        output, errors = spy.communicate(timeout=TIME_LIMIT_S)
-        server.terminate()
-        server.wait()
-    types = len(list((ROOT / "lcmtypes").glob("*.lcm")))
-    assert f"Found {types} LCM types" in output + errors

@@ -428,9 +428,9 @@ static void check_hash(const settings *s, uint64_t expected) {
 START_TEST(hash_is_that_of_earlier_checkpoints) {
     settings s = settings_default();
     char error[ERROR_LENGTH] = "";
-    check_hash(&s, 0x01e039a55aa6c915);
+    check_hash(&s, 0x6f2eff7f6e26a064);
     ck_assert_msg(settings_read(&s, CONFIG_DIR "/paper.ini", error), "%s", error);
-    check_hash(&s, 0x4627bd806cfba81a);
+    check_hash(&s, 0x22aee0356271c613);
 }
 END_TEST
 

@@ -25,6 +25,9 @@ START_TEST(test_good) {
     assert_is("udpm://239.1.2.3:65535?recv_buf_size=2097152&ttl=255", "239.1.2.3", 65535, 255, 2097152);
     udpm_url url;
     char error[ERROR_LENGTH] = "";
+    ck_assert(udpm_url_parse("udpm://?receiver=7&sender=8", &url, error));
+    ck_assert_int_eq(url.receiver, 7);
+    ck_assert_int_eq(url.sender, 8);
     ck_assert(udpm_url_parse("memq://", &url, error));
     ck_assert(url.queue);
 }
@@ -50,6 +53,7 @@ static const struct {
     {"udpm://?ttl= 1", "ttl= 1"},
     {"udpm://?ttl", "NAME=VALUE"},
     {"udpm://?recv_buf_size=99999999999999999999", "recv_buf_size="},
+    {"udpm://?receiver=-1", "receiver=-1"},
     {"udpm://?colour=red", "colour"},
 };
 

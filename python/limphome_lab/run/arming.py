@@ -20,7 +20,7 @@ from limphome_lab.channels import ARM, STATE, STATUS
 
 QUEUE = 500  # states that wait to be looked at; only the newest one counts
 FAREWELLS = 3  # a message may be lost
-KEYS = " \r\n"
+ARMS = " \r\n"  # keys that arm and disarm
 LFLAG = 3  # index in what tcgetattr gives
 
 REASONS = {
@@ -116,15 +116,15 @@ class Keys:
             termios.tcsetattr(self.terminal, termios.TCSADRAIN, self.before)
         signal.signal(signal.SIGTTOU, self.on_ttou)
 
-    def pressed(self):
-        """How often space or enter was pressed since the last call."""
-        count = 0
+    def typed(self):
+        """What was typed since the last call."""
+        keys = ""
         while self._by_keys() and select.select([self.terminal], [], [], 0)[0]:
             typed = os.read(self.terminal, 64).decode(errors="replace")
             if not typed:
                 break
-            count += sum(key in KEYS for key in typed)
-        return count
+            keys += typed
+        return keys
 
     def _in_foreground(self):
         try:

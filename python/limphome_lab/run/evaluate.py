@@ -5,6 +5,7 @@ import sys
 
 from limphome_lab import command, files, network, runfolder
 from limphome_lab.ending import with_exit_code
+from limphome_lab.run import elsewhere
 from limphome_lab.run.average import average_policy
 from limphome_lab.run.manifest import EVALUATION, Part, begin_manifest, write_manifest
 from limphome_lab.run.pair import Pair
@@ -19,11 +20,20 @@ EPISODES = 50
 def parse_arguments():
     parser = command.parser(
         "evaluate",
-        "Drives with the policy of a run, without learning; leaves a run folder.",
-        "runs/default-seed1-20250131-120000 --set episode.goal_distance_m=10",
+        "Drives with the policy of a run, without learning; leaves a run folder. Every episode begins from a pose of its "
+        "own, drawn by seed and episode: within 0.5 m, 0.1 rad of heading and 0.2 rad of each arm joint "
+        "(randomisation.position_m, .heading_rad, .joint_rad); --set one of them and only what is set is drawn, 0: "
+        "always the same pose.",
+        "runs/default-seed1-20250131-120000 --config config/rough.ini",
     )
-    parser.add_argument("run", metavar="RUN", help="run folder")
+    parser.add_argument("runs", metavar="RUN", nargs="+", help="run folder; of several each is evaluated")
     parser.add_argument("--episodes", type=int, default=EPISODES, help=f"how many; default {EPISODES}")
+    parser.add_argument(
+        "--config",
+        metavar="FILE",
+        help="another experiment (INI): its ground, failures, sensors and task; how the policy was learned stays",
+    )
+    parser.add_argument("--seed", type=int, help="of what is drawn, such as poses; default: that of the training")
     parser.add_argument(
         "--selection",
         choices=("greedy", "boltzmann"),
@@ -44,9 +54,12 @@ def parse_arguments():
         help="one setting other than in training, such as another failure; repeatable",
     )
     parser.add_argument("--out", metavar="DIR", help="run folder to make; default RUN/evaluation/, made anew")
-    parser.add_argument("--json", action="store_true", help="print JSON instead of a table")
+    parser.add_argument("--json", action="store_true", help="print JSON instead of a table; of several runs a list")
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
-    return parser.parse_args()
+    args = parser.parse_args()
+    if args.out is not None and len(args.runs) > 1:
+        parser.error(f"--out is for one RUN, and these are {len(args.runs)}: {', '.join(args.runs)}")
+    return args
 
 
 def evaluation_folder(trained, assignments, out=None):
@@ -78,19 +91,33 @@ def evaluate(folder, policy, url):
     return summary
 
 
+def evaluate_one(args, run, url):
+    """The summary of one run."""
+    trained = runfolder.existing(run, "policy")
+    average = None if args.average is None else seal(average_policy(trained, args.average))
+    chosen = elsewhere.assignments(trained, args.config, args.seed, args.set)
+    elsewhere.check_fits(trained, chosen)
+    settings = [f"learning.episodes={args.episodes}", f"evaluation.selection={args.selection}"]
+    folder = evaluation_folder(trained, [*settings, "simulator.pace=lockstep", *chosen], args.out)
+    if average is not None:
+        files.replace(folder.policy, average)
+    return evaluate(folder, trained.policy if average is None else folder.policy, url)
+
+
 @with_exit_code
 def main():
     args = parse_arguments()
     url = network.enter(args.network)
     raise_on_signals()
-    trained = runfolder.existing(args.run, "policy")
-    average = None if args.average is None else seal(average_policy(trained, args.average))
-    settings = [f"learning.episodes={args.episodes}", f"evaluation.selection={args.selection}"]
-    folder = evaluation_folder(trained, [*settings, "simulator.pace=lockstep", *args.set], args.out)
-    if average is not None:
-        files.replace(folder.policy, average)
-    summary = evaluate(folder, trained.policy if average is None else folder.policy, url)
-    print(json.dumps(summary, indent=2) if args.json else table(summary))
+    summaries = []
+    for run in args.runs:
+        summaries.append(evaluate_one(args, run, url))
+        if not args.json:
+            title = f"{run}\n" if len(args.runs) > 1 else ""
+            print(f"{title}{table(summaries[-1])}", flush=True)
+    if args.json:
+        told = [{"run": run, **summary} for run, summary in zip(args.runs, summaries, strict=True)]
+        print(json.dumps(told if len(told) > 1 else summaries[0], indent=2))
     return 0
 
 

@@ -1,5 +1,6 @@
 """Command launch: both processes in real time until Ctrl-C, to watch the robot learn or drive once it is armed."""
 
+import shlex
 import sys
 import time
 
@@ -8,7 +9,7 @@ from limphome_lab.ending import with_exit_code
 from limphome_lab.run.pair import Pair
 from limphome_lab.run.processes import raise_on_signals
 
-POLL_S = 0.2
+POLL_S = 0.1
 UNTIL_STOPPED = 1_000_000  # episodes
 
 
@@ -16,7 +17,8 @@ def parse_arguments():
     parser = command.parser(
         "launch",
         "Runs simulator and controller in real time until Ctrl-C. The robot moves once it is armed: space or enter "
-        "arms and disarms it.",
+        "arms and disarms it. h takes it by hand: while 1, 2, ... 8 are held down the first, second, ... actuator goes "
+        "ahead, with q, w, ... i back; l hands it to the learner, which limps home from there.",
         "--policy runs/default-seed1-20250131-120000",
     )
     parser.add_argument("--config", help="experiment (INI); default config/default.ini, or the run's")
@@ -25,6 +27,12 @@ def parse_arguments():
     parser.add_argument("--policy", metavar="RUN", help="drive with the policy of this run instead of learning")
     parser.add_argument(
         "--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="one setting; repeatable"
+    )
+    parser.add_argument(
+        "--driver",
+        metavar="COMMAND",
+        help="the program that drives a real robot, in place of the simulator; it is given --config, --robot and "
+        "--lcm-url beside its own words",
     )
     parser.add_argument("--arm", action="store_true", help="arm the robot right away, without a key")
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
@@ -52,9 +60,9 @@ def show(episode):
     )
 
 
-def how_to_arm(has_keys, arm):
-    if has_keys:
-        return "space or enter arms the robot, and disarms it"
+def how_to_drive(keys, arm, by_hand):
+    if keys.terminal is not None:
+        return f"space or enter arms the robot, and disarms it\n{by_hand}"
     return (
         "arming, as --arm says" if arm else "the robot stays disarmed: there is no terminal to arm it from, nor --arm"
     )
@@ -64,22 +72,36 @@ def tell(text):
     print(text, file=sys.stderr, flush=True)
 
 
-def launch(folder, url, options, arm):
-    from limphome_lab.run.arming import Keys, Operator  # LCM is there once all is set up, and --help before
+def launch(folder, url, options, arm, driver=None):
+    from limphome_lab import robot  # these are there once all is set up, and --help before
+    from limphome_lab.run.arming import ARMS, Keys, Operator
+    from limphome_lab.run.hand import Hand, HandKeys, words
 
     tail = runfolder.EpisodeTail(folder.episodes)
-    with Pair(folder, url, options) as pair, Keys() as keys, Operator(url, tell, arm) as operator:
+    by_hand = words(robot.read(folder.robot).actuators)
+    with (
+        Pair(folder, url, options, driver) as pair,
+        Keys() as keys,
+        Operator(url, tell, arm) as operator,
+        Hand(url, tell) as hand,
+    ):
+        hand_keys = HandKeys(hand)
         spy = command.called("spy")
         print(
             f"running in {paths.shown(folder.path)}; Ctrl-C ends it\n"
             f"watch the messages from another terminal with {spy}, or {spy} --text",
             flush=True,
         )
-        tell(how_to_arm(keys.terminal is not None, arm))
+        tell(how_to_drive(keys, arm, by_hand))
         while not pair.finished():
-            for _ in range(keys.pressed()):
-                operator.toggle()
+            for key in keys.typed():
+                if key in ARMS:
+                    operator.toggle()
+                    hand_keys.stop()
+                else:
+                    hand_keys.press(key, time.monotonic())
             operator.answer()
+            hand_keys.look(time.monotonic())
             for episode in tail.read_new():
                 show(episode)
             time.sleep(POLL_S)
@@ -92,7 +114,7 @@ def main():
     url = network.enter(args.network)
     raise_on_signals()
     folder, options = make_folder(args)
-    launch(folder, url, options, args.arm)
+    launch(folder, url, options, args.arm, shlex.split(args.driver) if args.driver else None)
     return 0
 
 

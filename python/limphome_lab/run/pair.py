@@ -40,12 +40,14 @@ def how_it_ended(code):
 
 
 class Pair:
-    """Use as a context: leaving it ends both processes, whatever happened."""
+    """Use as a context: leaving it ends both processes, whatever happened. `driver`: words of the program that is the
+    plant in place of the simulator."""
 
-    def __init__(self, folder, url, controller_options=()):
+    def __init__(self, folder, url, controller_options=(), driver=None):
         self.folder = folder
         self.url = url
         self.controller_options = [str(option) for option in controller_options]
+        self.driver = driver
         self.watch = Watch(url)
         self.restarts = []  # {"process", "ended", "after_episode", "unmeasured_s"}, where it is supervised
         self._ended = {}  # {process: last status of each life that another has followed}
@@ -55,7 +57,7 @@ class Pair:
         self.entry = registry.register(self.folder.path, self.url)
         self.children = []
         try:
-            self.simulator = self._start("simulator")
+            self.simulator = self._start("driver" if self.driver else "simulator")
             self.controller = self._start("controller", "--out", self.folder.path, *self.controller_options)
         except BaseException:
             self.__exit__()
@@ -65,7 +67,8 @@ class Pair:
     def _start(self, name, *options):
         self._began[name] = time.monotonic()
         common = ["--config", self.folder.config, "--robot", self.folder.robot, "--lcm-url", self.url]
-        child = ToldChild(name, [paths.program(name), *common, *options], self.folder.path / f"{name}.log")
+        program = self.driver if name == "driver" else [paths.program(name)]
+        child = ToldChild(name, [*program, *common, *options], self.folder.path / f"{name}.log")
         self.children.append(child)
         return child
 

@@ -58,15 +58,15 @@ def _signal_all(signum):
 
 
 class Child:
-    """A program, running; what it prints goes to the file `log`."""
+    """A program, running; what it prints goes to the file `log`. It inherits the descriptors `pass_fds`."""
 
-    def __init__(self, name, command, log):
+    def __init__(self, name, command, log, pass_fds=()):
         self.name = name
         self.log = log
         with open(log, "ab") as output:
-            self._start(command, output)
+            self._start(command, output, pass_fds)
 
-    def _start(self, command, output):
+    def _start(self, command, output, pass_fds=()):
         # a session of its own: Ctrl-C in the terminal reaches this process alone, which ends its children in order.
         # Until the child has become the program it takes no signal, as it would tell of it in this one's name
         mask = signal.pthread_sigmask(signal.SIG_BLOCK, ENDING)
@@ -79,6 +79,7 @@ class Child:
                 stderr=subprocess.STDOUT,
                 start_new_session=True,
                 preexec_fn=functools.partial(_prepare, mask),
+                pass_fds=pass_fds,
             )
             _children.add(self)
         finally:

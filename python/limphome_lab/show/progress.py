@@ -9,7 +9,8 @@ from collections import deque
 RECENT = 50  # episodes in the running figures
 TERMINAL_EVERY_S = 0.2
 LINE_EVERY_S = 10.0
-BAR_WIDTH = 24
+BAR_WIDTH, LEAST_BAR = 24, 6
+WIDTH = 79  # of a line where there is no terminal to ask
 
 
 def clock(seconds):
@@ -56,29 +57,39 @@ class Progress:
 
     def _show(self, now):
         self.shown_at = now
-        text = self.text(now)
         if self.live:
             width = shutil.get_terminal_size().columns - 1
-            self.stream.write(f"\r{text[:width]:<{width}}")
+            self.stream.write(f"\r{self.text(now, width)[:width]:<{width}}")
         else:
-            self.stream.write(f"{text}\n")
+            self.stream.write(f"{self.text(now)}\n")
         self.stream.flush()
 
-    def text(self, now):
-        share = min(self.done / self.total, 1.0)
-        filled = round(share * BAR_WIDTH)
-        bar = "#" * filled + "." * (BAR_WIDTH - filled)
-        text = f"episode {self.done:>{len(str(self.total))}}/{self.total} [{bar}]"
+    def text(self, now, width=WIDTH):
+        """In at most `width` characters: what matters less is left out where it is too long, and the bar has the rest."""
+        count = f"{self.done:>{len(str(self.total))}}/{self.total}"
+        taken = clock(now - self.began)
         if not self.recent:
-            return f"{text} {clock(now - self.began)}"
+            return self._with_bar(f"episode {count}", taken, width)
+        taken += f", {self._left(now)} left"
         episodes = [episode for episode, _ in self.recent]
         goals = sum(episode.outcome == "goal" for episode in episodes) / len(episodes)
         reward = statistics.median(episode.reward for episode in episodes)
+        recent = f"{taken}; last {len(episodes)}: {goals:.0%} goals, reward {reward:.1f}"
         factor = self.simulated_s / max(now - self.began, 1e-3)
-        return (
-            f"{text} last {len(episodes)}: goals {goals:4.0%}, reward {reward:7.2f} | {factor:4.0f}x real time, "
-            f"{clock(now - self.began)}, {self._left(now)} left"
-        )
+        for name, rest in (
+            (f"episode {count}", f"{recent}, {factor:.0f}x real time"),
+            (f"episode {count}", recent),
+            (count, recent),
+            (count, f"{taken}; {goals:.0%} goals"),
+        ):
+            if len(name) + len(rest) + LEAST_BAR + len(" [] ") <= width:
+                return self._with_bar(name, rest, width)
+        return self._with_bar(count, taken, width)
+
+    def _with_bar(self, before, after, width):
+        room = min(BAR_WIDTH, max(LEAST_BAR, width - len(before) - len(after) - len(" [] ")))
+        filled = round(min(self.done / self.total, 1.0) * room)
+        return f"{before} [{'#' * filled}{'.' * (room - filled)}] {after}"
 
     def _left(self, now):
         """Time left at the pace of the recent episodes, which get shorter as the robot learns."""

@@ -35,14 +35,15 @@ def find_pair(run):
 def main():
     args = parse_arguments()
     pair = find_pair(args.run)
+    inside = network.join_prefix(pair["pid"])
     if args.text:
         words = [sys.executable, "-m", "limphome_lab.show.spy_text", pair["url"]]
     else:
         from limphome_lab.show.spy_window import window_command
 
-        words = window_command(pair["url"])
+        words = window_command(pair["url"], inside)
     print(f"watching {paths.shown(pair['run'])}", file=sys.stderr, flush=True)
-    words = [*network.join_prefix(pair["pid"]), *words]
+    words = [*inside, *words]
     os.execvp(words[0], words)
 
 

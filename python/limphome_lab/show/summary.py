@@ -3,13 +3,24 @@
 import statistics
 
 
+def quartiles(values):
+    """(lower, median, upper), interpolated between neighbours; of a single value it is all three."""
+    values = sorted(values)
+    return tuple(statistics.quantiles(values, n=4, method="inclusive")) if len(values) > 1 else tuple(values) * 3
+
+
 def summarise(episodes):
-    """Shares and medians over a list of runfolder.Episode, which must not be empty."""
+    """Shares, medians and their spread over a list of runfolder.Episode, which must not be empty."""
     count = len(episodes)
     outcomes = [episode.outcome for episode in episodes]
 
     def median(value):
         return statistics.median(map(value, episodes))
+
+    def spread(value):
+        values = list(map(value, episodes))
+        lower, _, upper = quartiles(values)
+        return [lower, upper, max(values)]
 
     return {
         "episodes": count,
@@ -20,6 +31,9 @@ def summarise(episodes):
         "median_lateral_error_m": median(lambda episode: abs(episode.lateral_error_m)),
         "median_heading_change_rad": median(lambda episode: abs(episode.heading_change_rad)),
         "median_reward": median(lambda episode: episode.reward),
+        "spread_duration_s": spread(lambda episode: episode.duration_s),
+        "spread_lateral_error_m": spread(lambda episode: abs(episode.lateral_error_m)),
+        "spread_heading_change_rad": spread(lambda episode: abs(episode.heading_change_rad)),
     }
 
 
@@ -42,6 +56,20 @@ LABELS = {
 
 def table(summary):
     """The summary as aligned lines of text."""
-    rows = [(LABELS[name][0], LABELS[name][1].format(value)) for name, value in summary.items() if value is not None]
+    rows = [
+        (label, form.format(summary[name]) + _beside(summary, name, form))
+        for name, (label, form) in LABELS.items()
+        if summary.get(name) is not None
+    ]
     width = max(len(label) for label, _ in rows)
     return "\n".join(f"{label:<{width}}  {value}" for label, value in rows)
+
+
+def _beside(summary, name, form):
+    """How far the episodes are spread about a median."""
+    spread = summary.get(name.replace("median", "spread", 1)) if name.startswith("median") else None
+    if spread is None or summary["episodes"] < 2:
+        return ""
+    number = form.partition(" ")[0]
+    lower, upper, worst = (number.format(value) for value in spread)
+    return f"  (quartiles {lower} to {upper}, most {worst})"

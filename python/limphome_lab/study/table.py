@@ -5,6 +5,7 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
+from limphome_lab import command
 from limphome_lab.runfolder import InputError
 
 NAME = re.compile(r"[A-Za-z0-9_]+")
@@ -84,7 +85,8 @@ class _Reader:
         try:
             return tomllib.loads(self.path.read_text())
         except OSError as error:
-            raise InputError(f"{self.path}: cannot be read: {error.strerror}") from error
+            hint = "" if self.path.exists() else command.did_you_mean(self.path, ".toml")
+            raise InputError(f"{self.path}: cannot be read: {error.strerror}{hint}") from error
         except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
             raise InputError(f"{self.path}: not TOML: {error}") from error
 

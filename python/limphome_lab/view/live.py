@@ -19,6 +19,7 @@ from limphome_lab.view.curves import Curves
 from limphome_lab.view.feed import Feed
 from limphome_lab.view.frame import frame_of
 from limphome_lab.view.ground import Ground
+from limphome_lab.view.panels import Told
 from limphome_lab.view.scene import RobotScene
 from limphome_lab.view.server import Page
 
@@ -26,6 +27,9 @@ FRAME_S = 1 / 30
 TEXT_S = 0.2  # between two times that text and plots are brought up to date
 LOOK_S = 0.5  # between two looks for pairs
 POSE_STALE_S = 1.0  # a plant that has sent no pose for so long is shown by its states
+FIRST_PACE = 4.0  # times real time, of a run that was started with its page
+OPEN_WITHIN_S = 60.0  # of its start: until then it is held to that pace without anybody looking
+LINGER_S = 3.0  # after the last page was closed, of a run that has ended; a page that is loaded anew is back by then
 KEPT_STATES = 16  # to find the one that a decision tells of
 PANEL_WIDTH = 380  # [px]
 
@@ -38,19 +42,19 @@ class Live:
     def __init__(self, page, run=None, pid=None):
         self.page, self.run, self.pid = page, run, pid
         self.pair = self.feed = self.scene = None
+        self._has_joined = False
+        self._looked_at = float("-inf")
         self._later = queue.SimpleQueue()  # what a person has asked for, done between two frames
         gui = page.gui
         gui.configure_theme(control_width="large", show_logo=False, show_share_button=False, brand_color=(31, 95, 168))
         gui.main_panel.dock_right()
         gui.main_panel.set_width(PANEL_WIDTH)
         self._title = gui.add_markdown("")
-        self._episodes_text = gui.add_markdown("")
         tabs = gui.add_tab_group()
         with tabs.add_tab("Watch"):
             self.pace = Pace(gui, self._say, self._later.put)
             self.eye = Eye(page)
-            self._action_text = gui.add_markdown("")
-            self._figures_text = gui.add_markdown("")
+            self.told = Told(gui)
         with tabs.add_tab("Curves"):
             self.curves = Curves(gui)
         with tabs.add_tab("Counters"):
@@ -71,13 +75,29 @@ class Live:
                     self._look()
                 if self.feed is not None:
                     self._hear()
+                    self._keep()
                 if due - shown >= TEXT_S:
                     shown = due
                     self._tell()
                 time.sleep(max(0.0, due - time.monotonic()))
 
+    def _keep(self):
+        """Says that somebody looks. One that was started with its page goes slowly enough to be seen from the start."""
+        looked_at = bool(self.page.get_clients())
+        self._looked_at = time.monotonic() if looked_at else self._looked_at
+        awaited = self.pid is not None and time.monotonic() - self._joined < OPEN_WITHIN_S
+        if self.pid is not None and self.pace.wanted is None and self.pose is not None:
+            self.pace.run(FIRST_PACE)
+        if looked_at or awaited:
+            self.pace.keep()
+
     def _done(self):
-        return False
+        """Only of one that was started with the page: it has ended, and nobody looks any more."""
+        if self.pid is None or self.pair is not None or not self._has_joined:
+            return False
+        if self.page.get_clients():
+            self._looked_at = time.monotonic()
+        return time.monotonic() - self._looked_at > LINGER_S
 
     def _look(self):
         """Joins a pair, or notices that the one it shows has ended."""
@@ -105,10 +125,12 @@ class Live:
         self.scene = RobotScene(self.page.scene, described)
         self.ground = Ground(self.page.scene, folder.config, folder.robot, settings)
         self.ground.show_around((0, 0))
-        self.pair, self.feed = pair, Feed(pair)
+        self.pair, self.feed, self._has_joined = pair, Feed(pair), True
         self.statuses, self.decision, self.pose = {}, None, None
         self._states = collections.OrderedDict()
         self._posed = float("-inf")
+        self._lockstep = True
+        self._joined = time.monotonic()
         self.curves.clear()
         with contextlib.suppress(Ending):
             self.episodes = folder.read_episodes()
@@ -145,6 +167,7 @@ class Live:
             self.pose = message
             self._show(frame_of(message))
         elif channel == STATE:
+            self._lockstep = bool(message.lockstep)
             self._states[message.session, message.seq] = message
             while len(self._states) > KEPT_STATES:
                 self._states.popitem(last=False)
@@ -204,13 +227,12 @@ class Live:
         if self.decision is not None:
             now = self.decision.episode, self.decision.step
             health = self.scene.frame.health if self.scene.frame is not None else np.zeros(len(self.robot.actuators))
-            self._action_text.content = told.decision_table(self.robot, self.decision, health)
-            self._figures_text.content = told.figures(self.decision)
-        self._episodes_text.content = told.episodes(now, self.episodes)
+            self.told.decision(self.robot, self.decision, health)
+        self.told.episodes(now, self.episodes)
         self._counters_text.content = told.counters(self.statuses)
         if self.pose is not None:
             self.pace.text.content = f"pace: **{told.pace(self.pose.pace)}**, plant time {self.pose.utime / 1e6:.1f} s"
-            self.pace.show(self.pose.pace, lockstep=True)
+            self.pace.show(self.pose.pace, self._lockstep)
         self.curves.draw()
 
 

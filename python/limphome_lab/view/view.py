@@ -5,6 +5,7 @@ from pathlib import Path
 
 from limphome_lab import command
 from limphome_lab.ending import with_exit_code
+from limphome_lab.run.processes import raise_on_signals
 
 
 def parse_arguments():
@@ -22,6 +23,7 @@ def parse_arguments():
 @with_exit_code
 def main():
     args = parse_arguments()
+    raise_on_signals()
     from limphome_lab.view import live  # viser takes a second to load
 
     run = None if args.run is None else Path(args.run).absolute()

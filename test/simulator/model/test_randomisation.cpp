@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "laboratory.h"
 
@@ -65,6 +66,68 @@ TEST(Randomisation, IsTheSameForTheSameEpisodeOnly) {
     EXPECT_EQ(end_of_run(two, 2), second);
     EXPECT_NE(end_of_run(two, 3), second);
     EXPECT_EQ(end_of_run(two, 2), second);
+}
+
+settings put_anywhere() {
+    settings s = left_locked();
+    s.randomisation.position_m = 2;
+    s.randomisation.heading_rad = 0.3;
+    s.randomisation.joint_rad = 0.2;
+    return s;
+}
+
+TEST(Start, IsWithinItsRangesAndUsesThem) {
+    const RobotModel nominal = paper_robot();
+    double most[4] = {0, 0, 0, 0};
+    for (int episode = 1; episode <= 300; episode++) {
+        RobotModel model = nominal;
+        const Start start = draw_start(model, put_anywhere(), episode);
+        const double offsets[4] = {start.x, start.y, start.heading - M_PI / 2,
+                                   model.actuators[3].home - nominal.actuators[3].home};
+        for (int i = 0; i < 4; i++) {
+            most[i] = std::max(most[i], std::abs(offsets[i]));
+        }
+        EXPECT_EQ(model.actuators[0].home, nominal.actuators[0].home);  // a crawler has no angle to begin with
+    }
+    const double range[4] = {2, 2, 0.3, 0.2};
+    for (int i = 0; i < 4; i++) {
+        EXPECT_LE(most[i], range[i]);
+        EXPECT_GT(most[i], 0.9 * range[i]);
+    }
+}
+
+TEST(Start, KeepsJointsWithinTheirStops) {
+    settings s = left_locked();
+    s.randomisation.joint_rad = 3;
+    for (int episode = 1; episode <= 100; episode++) {
+        RobotModel model = paper_robot();
+        draw_start(model, s, episode);
+        for (std::size_t a = 2; a < model.actuators.size(); a++) {
+            EXPECT_GE(model.actuators[a].home, model.actuators[a].lower);
+            EXPECT_LE(model.actuators[a].home, model.actuators[a].upper);
+        }
+    }
+}
+
+TEST(Start, PutsTheRobotThereAtRestOnAnyGround) {
+    settings rough = put_anywhere(), uphill = put_anywhere();
+    rough.ground.rough_amplitude_m = 0.08;
+    uphill.ground.incline_along_rad = 0.2;
+    for (const settings &s : {put_anywhere(), rough, uphill}) {
+        World world(paper_robot(), s);
+        for (int episode = 1; episode <= 3; episode++) {
+            RobotModel model = paper_robot();
+            const Start start = draw_start(model, s, episode);
+            world.reset(episode);
+            EXPECT_NEAR(position(world).x(), start.x, 1e-9);
+            EXPECT_NEAR(position(world).y(), start.y, 1e-9);
+            EXPECT_NEAR(heading(world), start.heading, 1e-9);
+            EXPECT_EQ(world.robot().multibody().getJointPos(3), model.actuators[3].home);
+            run(world, {}, 0.5);
+            EXPECT_NEAR(position(world).x(), start.x, 0.01);
+            EXPECT_NEAR(position(world).y(), start.y, 0.01);
+        }
+    }
 }
 
 }  // namespace

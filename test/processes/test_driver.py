@@ -1,0 +1,193 @@
+"""The example of a driver on a CAN bus, between the real controller and simulated motor controllers, in real time.
+
+The bus is a serial line with an SLCAN adapter at either end, and Linux's vcan too where the kernel has it.
+"""
+
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from bus import REAL_TIME, Bus, controller, inside
+
+from conftest import ROOT
+from limphome import arm_request_t, status_t
+from limphome_lab import network, paths
+from limphome_lab.channels import COMMAND
+from limphome_lab.runfolder import resolve_settings
+
+EXAMPLE = ROOT / "examples" / "driver"
+EXPERIMENT = ROOT / "config" / "smoke.ini"
+SETTINGS = [*REAL_TIME, "learning.episodes=1000000", "link.give_up_s=0"]
+SILENCE = ["--silence", "1"]  # [s]: this machine has other things to do, too
+LEFT_CRAWLER, ARM = 0, 4
+REST_S = 0.3
+MOVED = 0.02  # [m or rad]
+
+
+def has_vcan():
+    made = ["ip", "link", "add", "dev", "vcan0", "type", "vcan"]
+    prefix = network.private_prefix()
+    return prefix is not None and subprocess.run([*prefix, *made], capture_output=True).returncode == 0
+
+
+class Machine:
+    """A driver and its motors on the bus of `interface`; files in `folder`."""
+
+    def __init__(self, bus, interface):
+        self.bus, self.interface = bus, interface
+        self.experiment = bus.folder / "experiment.ini"
+        self.experiment.write_text(resolve_settings(EXPERIMENT, SETTINGS))
+        if interface == "slcan":
+            self.ends = [str(bus.folder / name) for name in ("driver.tty", "motors.tty")]
+            self.start_python("cable.py", *self.ends)
+            assert bus.until(lambda: all(Path(end).exists() for end in self.ends))
+        else:
+            self.ends = ["vcan0", "vcan0"]
+            for words in ("add dev vcan0 type vcan", "set vcan0 up"):
+                subprocess.run(["ip", "link", *words.split()], check=True)
+
+    def start_python(self, name, *arguments):
+        return self.bus.start([sys.executable, EXAMPLE / name, *arguments])
+
+    def start_motors(self):
+        options = ["--interface", self.interface, "--failed", "1", *SILENCE]
+        return self.start_python("motors.py", *options, self.ends[1])
+
+    def start_driver(self):
+        program = paths.program("can-driver")
+        common = ["--config", self.experiment, "--lcm-url", network.lcm_url()]
+        return self.bus.start([program, *common, *SILENCE, self.ends[0]])
+
+    def start_controller(self):
+        return self.bus.start(controller(self.bus.folder / "run", *SETTINGS))
+
+    def arm(self):
+        """A person arms it and keeps it armed; whether it then moves."""
+        begin = self.bus.state
+        self.bus.answer = self.bus.keep_armed
+        return self.bus.until(
+            lambda: self.bus.state.armed and self.travel(begin) > MOVED and self.bus.state.reset_sender != 0
+        )
+
+    def travel(self, begin):
+        """The farthest that a motor went since."""
+        both = zip(begin.actuator_position, self.bus.state.actuator_position, strict=True)
+        return max(abs(after - before) for before, after in both)
+
+    def rests(self):
+        """Whether no motor moves any more."""
+        self.bus.until(lambda: not any(self.bus.state.actuator_velocity))
+        begin = self.bus.state
+        self.bus.listen(REST_S)
+        return self.travel(begin) == 0
+
+    def tells(self, reason):
+        """Whether the plant says so from now on."""
+        told = self.bus.statuses[status_t.PLANT]
+        known = len(told)
+        return self.bus.until(lambda: any(status.reason == reason for status in told[known:]))
+
+
+def drive(folder, interface):
+    """What was seen of all that may happen to a machine, one after the other."""
+    seen = {}
+    with Bus(folder) as bus:
+        machine = Machine(bus, interface)
+        driver = machine.start_driver()
+        assert bus.until(lambda: "waiting: motor 1 is silent" in driver.words())
+        seen["states before all nodes have spoken"] = len(bus.states)
+        motors = machine.start_motors()
+        machine.start_controller()
+        assert bus.until(lambda: bus.states and bus.state.reset_sender != 0)
+        first = bus.state
+        seen["first"] = [first.num_actuators, first.armed, first.reset, *first.actuator_health[:5]]
+        seen["home"] = [round(angle, 4) for angle in first.actuator_position[:5]]
+        seen["rests until armed"] = machine.rests()
+        seen["moves armed"] = machine.arm()
+        seen["the failed one stays"] = bus.state.actuator_position[LEFT_CRAWLER] == 0
+
+        bus.answer = None
+        bus.arm(bus.state, arm_request_t.DISARM)
+        seen["disarmed"] = machine.tells(status_t.BY_OPERATOR)
+        seen["rests disarmed"] = machine.rests()
+
+        machine.arm()
+        session = bus.state.session
+        motors.signal(signal.SIGUSR2)
+        seen["newly failed"] = bus.until(lambda: bus.state.actuator_health[ARM] == 1) and bus.state.session == session
+
+        motors.signal(signal.SIGUSR1)
+        bus.answer = None  # a person does not arm what stands in an emergency
+        seen["emergency stop"] = machine.tells(status_t.MACHINE_FAILED)
+        motors.signal(signal.SIGUSR1)
+        seen["new session"] = bus.until(lambda: bus.state.session != session and bus.state.reset_sender != 0)
+        seen["rests after it"] = machine.rests() and not bus.state.armed
+        seen["moves after it"] = machine.arm()
+
+        session = bus.state.session
+        bus.answer = None
+        motors.signal(signal.SIGKILL)
+        seen["motors died"] = machine.tells(status_t.MACHINE_FAILED)
+        machine.start_motors()
+        assert bus.until(lambda: bus.state.session != session and bus.state.reset_sender != 0)
+        seen["moves again"] = machine.arm()
+
+        last = bus.state
+        driver.signal(signal.SIGKILL)
+        bus.answer = None
+        bus.listen(2)
+        known = len(bus.states)
+        driver = machine.start_driver()
+        assert bus.until(lambda: len(bus.states) > known)
+        seen["motors rest without a driver"] = not any(bus.state.actuator_velocity) and machine.travel(last) < 0.6
+        seen["moves with another"] = machine.arm()
+        seen["commands"] = bus.counts[COMMAND] > 0
+        seen["driver's end"] = driver.end()
+        seen["words"] = bus.programs[1 if interface == "slcan" else 0].words()
+    return seen
+
+
+@pytest.mark.parametrize("interface", ["slcan", "socketcan"])
+def test_machine_on_a_can_bus(tmp_path, interface):
+    if interface == "socketcan" and not has_vcan():
+        pytest.skip("this kernel has no vcan")
+    seen = inside(drive, str(tmp_path), interface)
+    words = seen.pop("words")
+    assert "motor 1 has no power: all motors stop" in words
+    assert "is silent: all motors stop" in words
+    assert seen.pop("states before all nodes have spoken") == 0
+    assert seen.pop("first") == [5, 0, 1, 1, 0, 0, 0, 0]
+    assert seen.pop("home") == [0, 0, 0, 0.6, -1.5]
+    assert seen.pop("driver's end") == 0
+    assert [what for what, good in seen.items() if not good] == []
+
+
+def lose_the_bus(folder):
+    with Bus(folder) as bus:
+        machine = Machine(bus, "slcan")
+        machine.start_motors()
+        driver = machine.start_driver()
+        assert bus.until(lambda: bus.states)
+        bus.programs[0].signal(signal.SIGKILL)  # the adapter is pulled out
+        code = driver.process.wait(30)
+        return [code, driver.words().splitlines()[-1]]
+
+
+def test_driver_ends_where_its_adapter_is_gone(tmp_path):
+    assert inside(lose_the_bus, str(tmp_path)) == [1, "CAN adapter: Input/output error"]
+
+
+@pytest.mark.parametrize(
+    "arguments, says",
+    [
+        (["--config", EXPERIMENT, "/no/such/line"], (1, "/no/such/line: No such file or directory")),
+        (["--config", EXPERIMENT, "--actuators", "9", "can0"], (2, "usage")),
+        (["can0"], (2, "usage")),
+        (["--config", "/no/such.ini", "can0"], (2, "/no/such.ini")),
+    ],
+)
+def test_driver_says_what_is_wrong_with_its_words(arguments, says):
+    result = subprocess.run([paths.program("can-driver"), *map(str, arguments)], capture_output=True, text=True)
+    assert result.returncode == says[0] and says[1] in result.stderr
