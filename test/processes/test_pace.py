@@ -14,9 +14,9 @@ from limphome_lab.runfolder import RunFolder
 
 # with errors of the sensors, so that a reading too much would change what follows
 SHORT = ["learning.episodes=6", "episode.reset_every=3", "episode.step_limit=40", "sensors.joint_noise=0.002"]
-HASTY = ["link.give_up_s=1", "link.sender_timeout_s=0.5"]
+HASTY = ["link.give_up_s=2", "link.sender_timeout_s=0.5"]
 PERIOD_US = 500_000
-LOOKS_S = 1.5  # longer than the hasty wait for anything
+LOOKS_S = 2.5  # longer than the hasty wait for anything
 
 
 def say(bus, action, pace=0.0):
@@ -204,7 +204,7 @@ def test_a_paused_plant_is_taken_over(tmp_path, unwatched, observe):
     expected="dropped and counted; the bytes of an undisturbed run",
 )
 def test_a_pace_that_is_none_is_dropped_and_counted(tmp_path, unwatched, observe):
-    seen = inside(run, str(tmp_path), "spoken_to_nonsense", ["learning.episodes=40"])
+    seen = inside(run, str(tmp_path), "spoken_to_nonsense", ["learning.episodes=25"])
     assert seen["exit"] == 0, seen["words"]
     assert (seen["non_finite"], seen["malformed"]) == (100, 450)
     rows = [folder.episodes.read_text().splitlines()[1:7] for folder in (RunFolder(tmp_path / "run"), unwatched)]
