@@ -47,7 +47,9 @@ def fitted(direction, points, width_to_height):
     x, y, ahead = (points @ axes).T
     up = np.tan(FIELD_OF_VIEW / 2) * (1 - 2 * MARGIN)
     # |x - cx| <= across (ahead - ce) and the same of y: the planes of the picture's edges, moved until all lies within
-    depths, middles = zip(*(_edges(values, ahead, slope) for values, slope in ((x, up * width_to_height), (y, up))), strict=True)
+    depths, middles = zip(
+        *(_edges(values, ahead, slope) for values, slope in ((x, up * width_to_height), (y, up))), strict=True
+    )
     at = np.array([*middles, min(depths)])
     return Eye(axes @ at, SO3.from_matrix(axes).wxyz)
 

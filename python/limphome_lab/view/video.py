@@ -92,7 +92,9 @@ def smoothed(values, half):
 
 def caption(runs, time, speed):
     words = " | ".join(
-        f"episode {run.track.number}: {run.track.outcome}" if time >= run.track.duration else f"episode {run.track.number}"
+        f"episode {run.track.number}: {run.track.outcome}"
+        if time >= run.track.duration
+        else f"episode {run.track.number}"
         for run in runs
     )
     pace = f" (×{speed:g})" if speed != 1 else ""
