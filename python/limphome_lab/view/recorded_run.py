@@ -43,7 +43,8 @@ class RecordedRun:
         """At a time from the episode's begin [s]."""
         frame = self.track.at(time)
         self.ground.show_around(frame.position)
-        self.scene.show(frame, self.track.trail(time))
+        trail = [np.array([x, y, self.ground.height(x, y)]) for x, y, _ in self.track.trail(time)]
+        self.scene.show(frame, trail)
 
     def place(self, time):
         """[3] of the body in the page, at a time, level with the ground."""
