@@ -43,9 +43,9 @@ def check(file):
     return suffix
 
 
-def write(folders, episodes, file, names, size, speed):
-    """Draws an episode of each run folder, side by side, into `file`: a picture from each of the angles `names`, side by
-    side, each of `size` (width, height); `speed`: the plant's time to the video's."""
+def write(folders, number, file, names, size, speed):
+    """Draws episode `number`, None: the last, of each run folder, side by side, into `file`: a picture from each of the
+    angles `names`, side by side, each of `size` (width, height); `speed`: the plant's time to the video's."""
     rate, options = FORMATS[check(file)]
     with contextlib.ExitStack() as stack:
         page = Page("limphome")
@@ -53,7 +53,7 @@ def write(folders, episodes, file, names, size, speed):
         browser = stack.enter_context(Browser(page))
         scene = browser.client.scene
         runs = lanes(scene, folders)
-        for run, number in zip(runs, episodes, strict=True):
+        for run in runs:
             run.take(number)
         prepare(scene, runs)
         times = np.arange(0, max(run.track.duration for run in runs) + speed * HOLD_S, speed / rate)
@@ -110,7 +110,9 @@ def smoothed(values, half):
 
 def caption(runs, time, speed):
     words = " | ".join(
-        f"episode {run.track.number}: {run.track.outcome}" if time >= run.track.duration else f"episode {run.track.number}"
+        f"episode {run.track.number}: {run.track.outcome}"
+        if time >= run.track.duration
+        else f"episode {run.track.number}"
         for run in runs
     )
     pace = f" (x{speed:g})" if speed != 1 else ""
