@@ -13,7 +13,9 @@ _TREE = Path(__file__).resolve().parents[2]
 IN_TREE = (_TREE / "lcmtypes").is_dir()
 ROOT = _TREE if IN_TREE else Path.cwd()  # what is made lies below it
 BUILD = Path(os.environ.get("LIMPHOME_BUILD", ROOT / "build"))
-RUNS = ROOT / "runs"
+_MADE = ROOT if os.access(ROOT, os.W_OK) else Path.home() / "limphome"  # the tree may be somebody else's
+RUNS = _MADE / "runs"
+STUDIES = _MADE / "studies"
 
 
 def _shared():

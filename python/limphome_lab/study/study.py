@@ -130,7 +130,7 @@ def main():
     args = parse_arguments()
     raise_on_signals()
     wanted = table.read(args.table)
-    plan = Plan(wanted, args.out or paths.ROOT / "studies" / wanted.name)
+    plan = Plan(wanted, args.out or paths.STUDIES / wanted.name)
     if args.dry_run:
         tell_plan(plan)
         return 0
