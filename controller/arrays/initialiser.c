@@ -45,13 +45,14 @@ void initialiser_close(initialiser *i) {
 
 /* A short text that is read as the same float; what ends it makes it one. */
 static void real_text(float value, char text[NUMBER_LENGTH]) {
+    char number[NUMBER_LENGTH - 4] = "";
     for (int digits = 6; digits <= 9; digits++) {
-        snprintf(text, NUMBER_LENGTH, "%.*g", digits, (double)value);
-        if (strtof(text, NULL) == value) {
+        snprintf(number, sizeof number, "%.*g", digits, (double)value);
+        if (strtof(number, NULL) == value) {
             break;
         }
     }
-    strcat(text, strpbrk(text, ".e") == NULL ? ".0f" : "f");
+    snprintf(text, NUMBER_LENGTH, "%s%s", number, strpbrk(number, ".e") == NULL ? ".0f" : "f");
 }
 
 void initialiser_word(initialiser *i, const char *member, const char *word) {

@@ -49,7 +49,7 @@ typedef struct place {
     VALUE(x, seen->pose.x)                                                                              \
     VALUE(y, seen->pose.y)                                                                              \
     VALUE(heading, seen->pose.heading)                                                                  \
-    VALUE(episode, ended ? seen->summary.number : seen->episode)                                        \
+    VALUE(episode_number, ended ? seen->summary.number : seen->episode)                                 \
     VALUE(step, ended ? seen->summary.steps : seen->step)                                               \
     VALUE(duration, (ended ? seen->summary.steps : seen->step) * e->settings.episode.decision_period_s) \
     VALUE(heading_change,                                                                               \

@@ -147,6 +147,10 @@ class SerialCan final : public CanBus {
     bool listen() {
         char bytes[4096];
         const ssize_t size = read(*line_, bytes, sizeof bytes);
+        if (size == 0) {  // where nothing has come it is busy
+            errno = EIO;
+            fail("CAN adapter");
+        }
         if (size < 0 && !is_busy()) {
             fail("CAN adapter");
         }

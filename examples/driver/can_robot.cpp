@@ -13,6 +13,7 @@ namespace {
 // Identifiers: what it is, plus the node.
 enum : unsigned { measurement = 0x180, velocity_command = 0x200, heartbeat = 0x700, of_node = 0x7F };
 constexpr int imu_node = 16;
+constexpr int crawlers = 2;
 enum Condition : uint8_t { obeys = 0, failed = 1, weak = 2, no_power = 3 };
 
 constexpr double milli = 1e-3;        // velocity: mm/s, mrad/s
@@ -117,6 +118,9 @@ void CanRobot::await() {
         nanosleep(&pause, nullptr);
     }
     lost_ = false;
+    for (int c = 0; c < crawlers; c++) {  // a node that starts anew counts from 0
+        reckoned_[c] = motors_[static_cast<size_t>(c)].position;
+    }
 }
 
 void CanRobot::reset(int64_t /*episode*/) {
@@ -152,9 +156,29 @@ void CanRobot::command(const double velocity[limphome::max_actuators]) {
     sent_ = now;
 }
 
-// Nothing measures where the robot is: its position stays 0 (docs/real_robot.md tells what that means).
+// Nothing measures where the robot is. It is taken to go where it faces, as far as the belts of the crawlers that obey:
+// good enough to steer by and to see that it gets on (docs/real_robot.md).
+void CanRobot::reckon() {
+    double ahead = 0;
+    int obeying = 0;
+    for (int c = 0; c < crawlers; c++) {
+        const Motor &motor = motors_[static_cast<size_t>(c)];
+        if (health(c) != limphome::Health::failed) {
+            ahead += motor.position - reckoned_[c];
+            obeying++;
+        }
+        reckoned_[c] = motor.position;
+    }
+    const auto &[w, x, y, z] = imu_.orientation;
+    const double heading = std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
+    place_[0] += ahead / std::max(obeying, 1) * std::cos(heading);
+    place_[1] += ahead / std::max(obeying, 1) * std::sin(heading);
+}
+
 void CanRobot::sense(limphome::robot_state_t &state) {
     listen();
+    reckon();
+    std::copy(place_, place_ + 2, state.position);
     state.utime = std::llround(limphome::monotonic_now() * 1e6);
     state.num_actuators = num_actuators_;
     std::copy(imu_.orientation, imu_.orientation + 4, state.orientation);

@@ -46,6 +46,7 @@ class CanRobot final : public limphome::Machine {
     // The first that is lost or without power, in words; empty: all is well.
     std::string missing() const;
     void await();
+    void reckon();
 
     CanBus &bus_;
     const int num_actuators_;
@@ -54,6 +55,8 @@ class CanRobot final : public limphome::Machine {
     std::array<Motor, limphome::max_actuators> motors_{};
     Imu imu_;
     std::array<double, limphome::max_actuators> commanded_{};
-    double sent_ = 0;  // when all commands went out last [s, monotonic]
+    double place_[2] = {0, 0};     // where it is by dead reckoning [m]
+    double reckoned_[2] = {0, 0};  // travel of the crawlers up to there [m]
+    double sent_ = 0;              // when all commands went out last [s, monotonic]
     bool lost_ = false;
 };

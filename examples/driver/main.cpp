@@ -91,6 +91,9 @@ int main(int argc, char **argv) {
     try {
         const auto bus = open_can(o.channel);
         CanRobot robot(*bus, o.actuators, o.silence, &stop);
+        if (stop != 0) {
+            return done;
+        }
         limphome::Link link(o.lcm_url, s, robot.num_actuators());
         return limphome::Loop(robot, link, s).run(&stop) ? done : went_wrong;
     } catch (const std::exception &failure) {

@@ -94,12 +94,21 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split(":")[0])
     parser.add_argument("channel", help="vcan0, say, or the serial line of an adapter")
     parser.add_argument("--interface", choices=("socketcan", "slcan"), default="socketcan")
-    parser.add_argument("--home", nargs="+", type=float, default=[0, 0, 0, 0.6, -1.5], help="position of each motor")
-    parser.add_argument("--failed", nargs="*", type=int, default=[], metavar="MOTOR", help="from 1, that do not obey")
+    parser.add_argument("--home", default="0,0,0,0.6,-1.5", help="position of each motor [m, rad]; default %(default)s")
+    parser.add_argument(
+        "--failed",
+        action="append",
+        type=int,
+        default=[],
+        metavar="MOTOR",
+        help="from 1, that does not obey; repeatable",
+    )
     parser.add_argument("--silence", type=float, default=0.1, help="without a velocity a motor stops after this [s]")
     args = parser.parse_args()
     options = {"sleep_after_open": 0, "bitrate": 500_000} if args.interface == "slcan" else {}
-    motors = [Motor(home, FAILED if n in args.failed else OBEYS) for n, home in enumerate(args.home, 1)]
+    motors = [
+        Motor(home, FAILED if n in args.failed else OBEYS) for n, home in enumerate(map(float, args.home.split(",")), 1)
+    ]
     with can.Bus(interface=args.interface, channel=args.channel, **options) as bus:
         nodes = Nodes(bus, motors, args.silence)
         signal.signal(signal.SIGUSR1, nodes.press_or_release)

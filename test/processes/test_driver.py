@@ -3,19 +3,23 @@
 The bus is a serial line with an SLCAN adapter at either end, and Linux's vcan too where the kernel has it.
 """
 
+import contextlib
+import shutil
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from bus import REAL_TIME, Bus, controller, inside
+from bus import REAL_TIME, Bus, controller, inside, settings
 
-from conftest import ROOT
+from conftest import ROOT, TIME_LIMIT_S, start_script, wait_until
 from limphome import arm_request_t, status_t
-from limphome_lab import network, paths
-from limphome_lab.channels import COMMAND
-from limphome_lab.runfolder import resolve_settings
+from limphome_lab import network, paths, registry
+from limphome_lab.channels import COMMAND, STATE
+from limphome_lab.messages import recorded
+from limphome_lab.recording import TornRecording
+from limphome_lab.runfolder import RunFolder, resolve_settings
 
 EXAMPLE = ROOT / "examples" / "driver"
 EXPERIMENT = ROOT / "config" / "smoke.ini"
@@ -39,6 +43,8 @@ class Machine:
         self.bus, self.interface = bus, interface
         self.experiment = bus.folder / "experiment.ini"
         self.experiment.write_text(resolve_settings(EXPERIMENT, SETTINGS))
+        if interface is None:  # it needs none
+            return
         if interface == "slcan":
             self.ends = [str(bus.folder / name) for name in ("driver.tty", "motors.tty")]
             self.start_python("cable.py", *self.ends)
@@ -59,6 +65,9 @@ class Machine:
         program = paths.program("can-driver")
         common = ["--config", self.experiment, "--lcm-url", network.lcm_url()]
         return self.bus.start([program, *common, *SILENCE, self.ends[0]])
+
+    def start_driver_in_python(self):
+        return self.start_python("driver.py", "--config", self.experiment, "--lcm-url", network.lcm_url())
 
     def start_controller(self):
         return self.bus.start(controller(self.bus.folder / "run", *SETTINGS))
@@ -106,6 +115,7 @@ def drive(folder, interface):
         seen["home"] = [round(angle, 4) for angle in first.actuator_position[:5]]
         seen["rests until armed"] = machine.rests()
         seen["moves armed"] = machine.arm()
+        seen["reckons where it is"] = bus.until(lambda: any(bus.state.position))
         seen["the failed one stays"] = bus.state.actuator_position[LEFT_CRAWLER] == 0
 
         bus.answer = None
@@ -162,6 +172,77 @@ def test_machine_on_a_can_bus(tmp_path, interface):
     assert seen.pop("home") == [0, 0, 0, 0.6, -1.5]
     assert seen.pop("driver's end") == 0
     assert [what for what, good in seen.items() if not good] == []
+
+
+def drive_by_messages(folder):
+    """The driver in Python, on the messages alone."""
+    seen = {}
+    with Bus(folder) as bus:
+        machine = Machine(bus, None)
+        driver = machine.start_driver_in_python()
+        machine.start_controller()
+        assert bus.until(lambda: bus.states and bus.state.reset_sender != 0)
+        seen["sound"] = (
+            bus.state.reset == 1 and not bus.state.armed and bus.state.actuator_health[:5] == (1, 0, 0, 0, 0)
+        )
+        seen["rests until armed"] = machine.rests()
+        bus.arm(bus.state, challenge=12345)
+        seen["takes no other challenge"] = machine.rests()
+        seen["moves armed"] = machine.arm()
+        seen["not held"] = bus.until(lambda: bus.state.armed and not bus.state.held)
+        seen["obeys no other"] = not obeyed(bus, machine)
+        bus.answer = None  # the operator falls silent
+        seen["disarms itself"] = bus.until(lambda: not bus.state.armed)
+        seen["rests disarmed"] = machine.rests()
+        seen["moves again"] = machine.arm()
+        session = bus.state.session
+        bus.programs[1].signal(signal.SIGKILL)
+        bus.answer = None
+        seen["disarms without a controller"] = bus.until(lambda: not bus.state.armed)
+        seen["rests without a controller"] = machine.rests() and bus.state.session == session
+        bus.start(controller(bus.folder / "second", *SETTINGS))
+        assert bus.until(lambda: bus.state.session != session)
+        seen["moves for another"] = machine.arm()
+        seen["runs"] = driver.running()
+    return seen
+
+
+def obeyed(bus, machine):
+    """Whether the left joints go where somebody else commands them."""
+    for _ in range(10):
+        bus.command(bus.state, 0.0, 0.0, 0.0, 0.0, 99.0)
+        bus.listen(0.05)
+        if max(map(abs, bus.state.actuator_velocity)) > 0.31:
+            return True
+    return False
+
+
+def test_driver_on_the_messages_alone(tmp_path):
+    seen = inside(drive_by_messages, str(tmp_path))
+    assert [what for what, good in seen.items() if not good] == []
+
+
+def test_launch_starts_a_driver_in_place_of_the_simulator(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    command = f"{sys.executable} '{EXAMPLE / 'driver.py'}'"
+    process = start_script("launch", "--config", EXPERIMENT, "--driver", command, "--arm", *settings(*REAL_TIME))
+    wait_until(process, registry.running)
+    run = RunFolder(registry.running()[0]["run"])
+    try:
+        wait_until(process, lambda: run.messages.exists() and any(moved(run)))
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=TIME_LIMIT_S)
+        assert process.returncode == 130 and "armed: the robot moves" in errors
+        assert all(state.reset == state.WHERE_IT_IS for _, state in recorded(run.messages, STATE))  # no simulator does
+    finally:
+        shutil.rmtree(run.path)
+
+
+def moved(run):
+    """Whether each state that has been recorded tells of motion."""
+    with contextlib.suppress(TornRecording):  # it is being written
+        for _, state in recorded(run.messages, STATE):
+            yield any(state.actuator_velocity)
 
 
 def lose_the_bus(folder):

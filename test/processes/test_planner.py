@@ -121,7 +121,9 @@ def test_greedy_episodes_begin_from_poses_of_their_own(run):
 def test_one_pose_can_be_asked_for(run):
     evaluated([run.path], "--episodes", 2, "--set", "randomisation.joint_rad=0")
     settings = RunFolder(run.path / "evaluation").settings()
-    assert settings["episode"]["reset_every"] == str(RESET_EVERY) and float(settings["randomisation"]["position_m"]) == 0
+    assert (
+        settings["episode"]["reset_every"] == str(RESET_EVERY) and float(settings["randomisation"]["position_m"]) == 0
+    )
 
 
 def test_an_evaluation_takes_another_world_but_not_another_learner(run):

@@ -33,7 +33,7 @@ class LimpHome(gymnasium.Env[np.ndarray, int]):
     a path, each `episode.reset_every` episodes, from the middle of an episode, and with `options={"put_back": True}`.
 
     **Info**: `reward_motion`, `reward_goal`, `reward_stability`, `reward_tumble`; `stability_margin` [m]; `goal_distance`,
-    `lateral_error` [m] and `heading_error` [rad] from the line; `x`, `y` [m] and `heading` [rad] in the world; `episode`,
+    `lateral_error` [m] and `heading_error` [rad] from the line; `x`, `y` [m] and `heading` [rad] in the world; `episode_number`,
     `step`, `duration` [s], `heading_change` [rad] and `waypoint_distance` [m]. Where an episode ends `outcome`: "goal",
     "tumble", "timeout", or "fault" where the simulation failed.
 

@@ -10,6 +10,7 @@ from limphome_lab.run.average import average_policy
 from limphome_lab.run.manifest import EVALUATION, Part, begin_manifest, write_manifest
 from limphome_lab.run.pair import Pair
 from limphome_lab.run.processes import raise_on_signals
+from limphome_lab.run.viewing import Viewing, add_argument
 from limphome_lab.sealed import seal
 from limphome_lab.show.progress import Progress
 from limphome_lab.show.summary import summarise, table
@@ -56,6 +57,7 @@ def parse_arguments():
     parser.add_argument("--out", metavar="DIR", help="run folder to make; default RUN/evaluation/, made anew")
     parser.add_argument("--json", action="store_true", help="print JSON instead of a table; of several runs a list")
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
+    add_argument(parser)
     args = parser.parse_args()
     if args.out is not None and len(args.runs) > 1:
         parser.error(f"--out is for one RUN, and these are {len(args.runs)}: {', '.join(args.runs)}")
@@ -74,13 +76,13 @@ def evaluation_folder(trained, assignments, out=None):
     )
 
 
-def evaluate(folder, policy, url):
+def evaluate(folder, policy, url, viewing):
     episodes = int(folder.settings()["learning"]["episodes"])
     tail = runfolder.EpisodeTail(folder.episodes)
     progress = Progress(episodes, quiet=not sys.stderr.isatty())
     begin_manifest(folder, "evaluation", kind=EVALUATION)
     part = Part(folder)
-    with Pair(folder, url, ["--evaluate", policy]) as pair:
+    with Pair(folder, url, ["--evaluate", policy], ready=viewing.wait) as pair:
         pair.run(tail, progress)
     write_manifest(folder, part.measure("finished", progress.simulated_s, pair))
     summary = summarise(folder.read_episodes())
@@ -91,7 +93,7 @@ def evaluate(folder, policy, url):
     return summary
 
 
-def evaluate_one(args, run, url):
+def evaluate_one(args, run, url, viewing):
     """The summary of one run."""
     trained = runfolder.existing(run, "policy")
     average = None if args.average is None else seal(average_policy(trained, args.average))
@@ -101,24 +103,30 @@ def evaluate_one(args, run, url):
     folder = evaluation_folder(trained, [*settings, "simulator.pace=lockstep", *chosen], args.out)
     if average is not None:
         files.replace(folder.policy, average)
-    return evaluate(folder, trained.policy if average is None else folder.policy, url)
+    return evaluate(folder, trained.policy if average is None else folder.policy, url, viewing)
 
 
 @with_exit_code
 def main():
     args = parse_arguments()
+    with Viewing(args.view) as viewing:
+        run(args, viewing)
+        viewing.linger()
+    return 0
+
+
+def run(args, viewing):
     url = network.enter(args.network)
     raise_on_signals()
     summaries = []
-    for run in args.runs:
-        summaries.append(evaluate_one(args, run, url))
+    for each in args.runs:
+        summaries.append(evaluate_one(args, each, url, viewing))
         if not args.json:
-            title = f"{run}\n" if len(args.runs) > 1 else ""
+            title = f"{each}\n" if len(args.runs) > 1 else ""
             print(f"{title}{table(summaries[-1])}", flush=True)
     if args.json:
-        told = [{"run": run, **summary} for run, summary in zip(args.runs, summaries, strict=True)]
-        print(json.dumps(told if len(told) > 1 else summaries[0], indent=2))
-    return 0
+        told = [{"run": each, **summary} for each, summary in zip(args.runs, summaries, strict=True)]
+        print(json.dumps(told if len(told) > 1 else summaries[0], indent=2), flush=True)
 
 
 if __name__ == "__main__":

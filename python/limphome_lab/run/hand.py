@@ -28,8 +28,8 @@ WORDS = {
 
 
 class Hand:
-    """Use as a context. Call `answer` five times a second at least: it keeps up what `take`, `drive` and `give` ask for.
-    Leaving the context lets go: the lease runs out, and the robot stands still, or in lockstep the learner goes on.
+    """Use as a context. Call `answer` five times a second at least: it keeps up what `take` and `give` ask for. Leaving
+    the context lets go: the lease runs out, and the robot stands still, or in lockstep the learner goes on.
 
     `state`: newest robot_state_t, or None; `decision`: newest decision_t, or None; `in_charge`: who decides, one of
     LEARNER, ME, ANOTHER (operator) and NOBODY, or None while no controller is heard; `wants`: whether it is to be ours.
@@ -73,7 +73,7 @@ class Hand:
 
     def answer(self):
         """Takes in what has been said, and keeps up what is wanted."""
-        for _ in range(QUEUE):
+        for _ in range(3 * QUEUE):  # all of them: those that are left are the oldest
             if not self.lcm.handle_timeout(0):
                 break
         if self.wants:

@@ -8,6 +8,7 @@ from limphome_lab import command, network, paths, runfolder
 from limphome_lab.ending import with_exit_code
 from limphome_lab.run.pair import Pair
 from limphome_lab.run.processes import raise_on_signals
+from limphome_lab.run.viewing import Viewing, add_argument
 
 POLL_S = 0.1
 UNTIL_STOPPED = 1_000_000  # episodes
@@ -36,6 +37,7 @@ def parse_arguments():
     )
     parser.add_argument("--arm", action="store_true", help="arm the robot right away, without a key")
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
+    add_argument(parser)
     return parser.parse_args()
 
 
@@ -72,7 +74,7 @@ def tell(text):
     print(text, file=sys.stderr, flush=True)
 
 
-def launch(folder, url, options, arm, driver=None):
+def launch(folder, url, options, arm, viewing, driver=None):
     from limphome_lab import robot  # these are there once all is set up, and --help before
     from limphome_lab.run.arming import ARMS, Keys, Operator
     from limphome_lab.run.hand import Hand, HandKeys, words
@@ -80,7 +82,7 @@ def launch(folder, url, options, arm, driver=None):
     tail = runfolder.EpisodeTail(folder.episodes)
     by_hand = words(robot.read(folder.robot).actuators)
     with (
-        Pair(folder, url, options, driver) as pair,
+        Pair(folder, url, options, driver, viewing.wait) as pair,
         Keys() as keys,
         Operator(url, tell, arm) as operator,
         Hand(url, tell) as hand,
@@ -111,10 +113,11 @@ def launch(folder, url, options, arm, driver=None):
 @with_exit_code
 def main():
     args = parse_arguments()
-    url = network.enter(args.network)
-    raise_on_signals()
-    folder, options = make_folder(args)
-    launch(folder, url, options, args.arm, shlex.split(args.driver) if args.driver else None)
+    with Viewing(args.view) as viewing:
+        url = network.enter(args.network)
+        raise_on_signals()
+        folder, options = make_folder(args)
+        launch(folder, url, options, args.arm, viewing, shlex.split(args.driver) if args.driver else None)
     return 0
 
 

@@ -41,13 +41,14 @@ def how_it_ended(code):
 
 class Pair:
     """Use as a context: leaving it ends both processes, whatever happened. `driver`: words of the program that is the
-    plant in place of the simulator."""
+    plant in place of the simulator; `ready`: called once others can find the pair, before it starts."""
 
-    def __init__(self, folder, url, controller_options=(), driver=None):
+    def __init__(self, folder, url, controller_options=(), driver=None, ready=lambda: None):
         self.folder = folder
         self.url = url
         self.controller_options = [str(option) for option in controller_options]
         self.driver = driver
+        self.ready = ready
         self.watch = Watch(url)
         self.restarts = []  # {"process", "ended", "after_episode", "unmeasured_s"}, where it is supervised
         self._ended = {}  # {process: last status of each life that another has followed}
@@ -57,6 +58,7 @@ class Pair:
         self.entry = registry.register(self.folder.path, self.url)
         self.children = []
         try:
+            self.ready()
             self.simulator = self._start("driver" if self.driver else "simulator")
             self.controller = self._start("controller", "--out", self.folder.path, *self.controller_options)
         except BaseException:

@@ -15,6 +15,7 @@ from limphome_lab.run.manifest import (
 )
 from limphome_lab.run.pair import Pair, SupervisedPair
 from limphome_lab.run.processes import Interrupted, raise_on_signals
+from limphome_lab.run.viewing import Viewing, add_argument
 from limphome_lab.show import diagnose
 from limphome_lab.show.progress import Progress, clock
 
@@ -44,6 +45,7 @@ def parse_arguments():
     )
     parser.add_argument("--no-figures", dest="figures", action="store_false", help="draw none; plot does it later")
     parser.add_argument("--quiet", action="store_true", help="no progress")
+    add_argument(parser)
     args = parser.parse_args()
     if args.resume is not None and (
         args.config or args.robot or args.packages or args.out or args.set or args.seed is not None
@@ -107,13 +109,22 @@ def train(pair, folder, progress):
 @with_exit_code
 def main():
     args = parse_arguments()
+    with Viewing(args.view) as viewing:
+        code = run(args, viewing)
+        if code == 0:
+            viewing.linger()
+        return code
+
+
+def run(args, viewing):
     url = network.enter(args.network)
     raise_on_signals()
     folder, done = resumed_folder(args) if args.resume is not None else (new_folder(args), 0)
     part = Part(folder)
     print(f"training in {paths.shown(folder.path)}", file=sys.stderr)
     progress = Progress(int(folder.settings()["learning"]["episodes"]), done, quiet=args.quiet)
-    pair = (SupervisedPair if args.supervise else Pair)(folder, url, ["--resume"] if args.resume is not None else [])
+    options = ["--resume"] if args.resume is not None else []
+    pair = (SupervisedPair if args.supervise else Pair)(folder, url, options, ready=viewing.wait)
     result, code = "finished", 0
     try:
         train(pair, folder, progress)

@@ -6,6 +6,7 @@ form: length of the channel's name, of the data (network order), name, data. It 
 """
 
 import contextlib
+import json
 import os
 import select
 import signal
@@ -16,6 +17,7 @@ import time
 
 from limphome_lab import network
 from limphome_lab.view.listen import Listener
+from limphome_lab.view.operate import ASKED, Operating
 
 HEADER = struct.Struct("!HI")
 EVERY_S = 1 / 30
@@ -87,6 +89,8 @@ def main():
     os.nice(NICE)
     listener = Listener(sys.argv[1])
     bus = lcm.LCM(sys.argv[1])  # to speak alone: without a subscription liblcm receives nothing
+    operating = Operating(sys.argv[1], lambda channel, data: heard.append(packed(channel, data)))
+    heard = []
     parser = Parser()
     due = time.monotonic()
     while True:
@@ -96,14 +100,22 @@ def main():
                 continue
             said = os.read(sys.stdin.fileno(), READ)
             if not said:
+                operating.let_go()
                 return 0
             for channel, data in parser.feed(said):
-                bus.publish(channel, data)
+                if channel == ASKED:
+                    operating.obey(json.loads(data))
+                else:
+                    bus.publish(channel, data)
+        operating.answer()
+        heard += [packed(*message) for message in listener.newest()]
         try:
-            sys.stdout.buffer.write(b"".join(packed(*message) for message in listener.newest()))
+            sys.stdout.buffer.write(b"".join(heard))
             sys.stdout.buffer.flush()
         except BrokenPipeError:
+            operating.let_go()
             return 0
+        heard.clear()
 
 
 if __name__ == "__main__":

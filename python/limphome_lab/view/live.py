@@ -2,6 +2,8 @@
 
 import collections
 import contextlib
+import json
+import os
 import queue
 import time
 
@@ -11,11 +13,13 @@ from limphome import decision_t, episode_t, pose_t, robot_state_t, status_t
 from limphome_lab import command, paths, registry, robot
 from limphome_lab.channels import DECISION, EPISODE, POSE, STATE, STATUS
 from limphome_lab.ending import Ending
-from limphome_lab.robot import rotation_of
+from limphome_lab.goal import goal
+from limphome_lab.run.viewing import JOINED
 from limphome_lab.runfolder import Episode, RunFolder
-from limphome_lab.view import told
+from limphome_lab.view import operate, told
 from limphome_lab.view.controls import Eye, Pace
 from limphome_lab.view.curves import Curves
+from limphome_lab.view.drive import Drive
 from limphome_lab.view.feed import Feed
 from limphome_lab.view.frame import frame_of
 from limphome_lab.view.ground import Ground
@@ -37,10 +41,11 @@ TYPES = {POSE: pose_t, STATE: robot_state_t, DECISION: decision_t, EPISODE: epis
 
 
 class Live:
-    """`run`: folder of the one to wait for, None: the newest. `pid`: of the one to show alone, until nobody looks."""
+    """`run`: folder of the one to wait for, None: the newest. `pid`: of the one to show alone, until nobody looks;
+    `joins`: descriptor on which it is waited for."""
 
-    def __init__(self, page, run=None, pid=None):
-        self.page, self.run, self.pid = page, run, pid
+    def __init__(self, page, run=None, pid=None, joins=None):
+        self.page, self.run, self.pid, self.joins = page, run, pid, joins
         self.pair = self.feed = self.scene = None
         self._has_joined = False
         self._looked_at = float("-inf")
@@ -55,6 +60,8 @@ class Live:
             self.pace = Pace(gui, self._say, self._later.put)
             self.eye = Eye(page)
             self.told = Told(gui)
+        with tabs.add_tab("Drive"):
+            self.drive = Drive(gui, self._ask, self._later.put)
         with tabs.add_tab("Curves"):
             self.curves = Curves(gui)
         with tabs.add_tab("Counters"):
@@ -84,11 +91,15 @@ class Live:
     def _keep(self):
         """Says that somebody looks. One that was started with its page goes slowly enough to be seen from the start."""
         looked_at = bool(self.page.get_clients())
-        self._looked_at = time.monotonic() if looked_at else self._looked_at
+        if looked_at:
+            self._looked_at = time.monotonic()
+            self.drive.keep()
+        else:
+            self.drive.let_go()
         awaited = self.pid is not None and time.monotonic() - self._joined < OPEN_WITHIN_S
-        if self.pid is not None and self.pace.wanted is None and self.pose is not None:
+        if self.pid is not None and self.pace.wanted is None and self._lockstep:
             self.pace.run(FIRST_PACE)
-        if looked_at or awaited:
+        if self._lockstep and (looked_at or awaited):
             self.pace.keep()
 
     def _done(self):
@@ -129,14 +140,17 @@ class Live:
         self.statuses, self.decision, self.pose = {}, None, None
         self._states = collections.OrderedDict()
         self._posed = float("-inf")
-        self._lockstep = True
+        self._lockstep = None  # not known yet
         self._joined = time.monotonic()
         self.curves.clear()
+        self.drive.fit(described.actuators)
         with contextlib.suppress(Ending):
             self.episodes = folder.read_episodes()
         for episode in self.episodes:
             self.curves.add_episode(episode.episode, episode.reward)
         self._title.content = f"### {paths.shown(pair['run'])}"
+        if self.joins is not None:
+            os.write(self.joins, JOINED)
 
     def _leave(self):
         if self.feed is not None:
@@ -154,9 +168,16 @@ class Live:
         if self.feed is not None:
             self.feed.say(channel, message.encode())
 
+    def _ask(self, asked):
+        if self.feed is not None:
+            self.feed.say(operate.ASKED, json.dumps(asked).encode())
+
     def _hear(self):
         messages = self.feed.newest()
         for channel, data in messages or []:
+            if channel == operate.TOLD:
+                self.drive.hear(json.loads(data))
+                continue
             with contextlib.suppress(ValueError):  # the bus is open to all
                 self._take(channel, TYPES[channel].decode(data))
 
@@ -197,11 +218,7 @@ class Live:
         state = self._states.get((decision.session, decision.seq))
         if state is None:
             return
-        x, y, _ = rotation_of(state.orientation)[:, 0]
-        direction = np.arctan2(y, x) - decision.heading_error
-        ahead = decision.goal_distance * np.array([np.cos(direction), np.sin(direction)])
-        aside = -decision.lateral_error * np.array([-np.sin(direction), np.cos(direction)])
-        self.scene.set_goal(np.array(state.position[:2]) + ahead + aside, direction, self.ground.height)
+        self.scene.set_goal(*goal(decision, state), self.ground.height)
 
     def _ended(self, message):
         if self.episodes and message.episode <= self.episodes[-1].episode:
@@ -232,15 +249,15 @@ class Live:
         self._counters_text.content = told.counters(self.statuses)
         if self.pose is not None:
             self.pace.text.content = f"pace: **{told.pace(self.pose.pace)}**, plant time {self.pose.utime / 1e6:.1f} s"
-            self.pace.show(self.pose.pace, self._lockstep)
+            self.pace.show(self.pose.pace, bool(self._lockstep))
         self.curves.draw()
 
 
-def serve(run=None, port=0, pid=None, tell=print):
+def serve(run=None, port=0, pid=None, joins=None, tell=print):
     """Shows until Ctrl-C, or, with a `pid`, until it has ended and nobody looks."""
     page = Page("limphome", port)
     try:
         tell(page.url)
-        Live(page, run, pid).watch()
+        Live(page, run, pid, joins).watch()
     finally:
         page.stop()

@@ -150,6 +150,10 @@ class Track:
         frame.margin = decision.stability_margin if decision else None
         return frame
 
+    def trail(self, time):
+        """[positions] up to a time."""
+        return [*self._positions[: self._place(time)[0] + 1], self.at(time).position]
+
     def decision(self, time):
         """The decision_t under way at a time, None where it is not recorded."""
         return self.decisions[self._place(time)[0]]

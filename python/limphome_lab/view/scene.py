@@ -68,10 +68,12 @@ class RobotScene:
         at = self.frame.position * (1, 1, 0) if self.follow and self.frame is not None else self._origin
         self._root.position = self._offset - self._turn @ at
 
-    def show(self, frame):
-        """Moves all of it to a frame."""
+    def show(self, frame, trail=None):
+        """Moves all of it to a frame. `trail`: [positions] up to there; where none is given, what has been shown."""
         jumped = self.frame is None or np.linalg.norm(frame.position - self.frame.position) > JUMP
-        if jumped or frame.session != self.frame.session:
+        if trail is not None:
+            self._trail = [position + (0, 0, ABOVE_GROUND) for position in trail]
+        elif jumped or frame.session != self.frame.session:
             self._trail = []
         self.frame = frame
         self._place_root()

@@ -1,5 +1,6 @@
 """Command view: a page in the browser that shows the robot of a running pair, live."""
 
+import argparse
 import sys
 from pathlib import Path
 
@@ -17,6 +18,7 @@ def parse_arguments():
     parser.add_argument("run", metavar="RUN", nargs="?", help="run folder of the pair; default: whichever is running")
     parser.add_argument("--port", type=int, default=0, help="of the page; default: a free one")
     parser.add_argument("--pid", type=int, help="show the pair of this process alone, and end after it")
+    parser.add_argument("--joins", type=int, help=argparse.SUPPRESS)  # descriptor to tell on that it listens
     return parser.parse_args()
 
 
@@ -27,7 +29,7 @@ def main():
     from limphome_lab.view import live  # viser takes a second to load
 
     run = None if args.run is None else Path(args.run).absolute()
-    live.serve(run, args.port, args.pid, lambda url: print(f"open {url}\nCtrl-C ends it", flush=True))
+    live.serve(run, args.port, args.pid, args.joins, lambda url: print(f"open {url}\nCtrl-C ends it", flush=True))
     return 0
 
 

@@ -48,4 +48,4 @@ def test_a_narrow_terminal_still_gets_count_and_time_left():
     shown = progress.Progress(2500, stream=io.StringIO())
     shown.update([episode(number) for number in range(1, 61)])
     text = shown.text(shown.began + 3, 50)
-    assert len(text) <= 50 and text.startswith("  60/2500 [") and text.endswith(" left")
+    assert len(text) <= 50 and text.startswith("  60/2500 [") and " left" in text

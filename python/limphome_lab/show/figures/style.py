@@ -7,15 +7,22 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-DPI = 150
+DPI, PAPER_DPI = 150, 300
 INK = "#222222"
 FAINT = "#9aa5b1"  # single episodes, references
-BLUE = "#1f5fa8"  # the learned, the running median
-ORANGE = "#e07b1a"  # the beginning, the arm
-RED = "#c8322b"  # the failed crawler, tumbles
-GREEN = "#3a8f4d"  # the goal
+# of Okabe and Ito, whom people with any kind of colour blindness can follow
+BLUE = "#0072b2"  # the learned, the running median
+ORANGE = "#e69f00"  # the beginning, the arm
+RED = "#d55e00"  # the failed crawler, tumbles
+GREEN = "#009e73"  # the goal
+PURPLE = "#cc79a7"
+SKY = "#56b4e9"
+SERIES = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY, INK)  # of experiments side by side
+DASHES = ("-", "--", "-.", ":")  # for a second round of colours
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 
-MEDIAN_WINDOW = 51  # episodes
+MEDIAN_WINDOW = 51  # episodes, of a run that is long enough
+COLUMN, PAGE = 3.35, 7.0  # widths in a paper: one column (85 mm), both (178 mm) [in]
 
 plt.rcParams.update(
     {
@@ -39,10 +46,41 @@ plt.rcParams.update(
 )
 
 
+def series(number):
+    """(colour, dash, marker) of an experiment."""
+    return (
+        SERIES[number % len(SERIES)],
+        DASHES[number // len(SERIES) % len(DASHES)],
+        MARKERS[number % len(MARKERS)],
+    )
+
+
 def save(figure, path):
     figure.savefig(path, dpi=DPI)
     plt.close(figure)
     return path
+
+
+def save_all(figure, path, paper=False):
+    """The figure as `path`, a PNG for the screen; for a paper besides, in paper/ beside it, as PDF and PNG."""
+    files = [path]
+    figure.savefig(path, dpi=DPI)
+    if paper:
+        from limphome_lab.show.figures.paper import fit
+
+        fit(figure)
+        folder = path.parent / "paper"
+        folder.mkdir(exist_ok=True)
+        files += [folder / f"{path.stem}.pdf", folder / path.name]
+        for file in files[1:]:
+            figure.savefig(file, dpi=PAPER_DPI)
+    plt.close(figure)
+    return files
+
+
+def window(count):
+    """Episodes of a running median over so many: a tenth of them, odd, from 5 to 51."""
+    return min(MEDIAN_WINDOW, max(5, count // 10 | 1))
 
 
 def running(values, statistic=np.median, window=MEDIAN_WINDOW):

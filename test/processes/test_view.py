@@ -1,0 +1,139 @@
+"""scripts/view in a browser: what is seen there is what the run does, and what is pressed there happens to it."""
+
+import os
+import re
+import shutil
+import signal
+import time
+
+import pytest
+
+from conftest import SMOKE, TIME_LIMIT_S, processes_that_mention, start_script
+from limphome_lab.channels import DECISION
+from limphome_lab.messages import recorded
+
+SLOW_MS = 120_000  # a browser that draws without a graphics card takes its time
+ARGUMENTS = [  # drawing by the processor, and nothing that talks to the outside
+    *("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run"),
+    *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
+]
+PERIOD_S = 0.5
+
+
+@pytest.fixture
+def browser():
+    program = shutil.which("chromium")
+    if program is None:
+        pytest.skip("chromium is not installed; scripts/test does it")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        root = ["--no-sandbox"] if os.geteuid() == 0 else []
+        browser = playwright.chromium.launch(executable_path=program, args=[*ARGUMENTS, *root])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def training(tmp_path):
+    """scripts/train --view: (process, run folder, address of the page)"""
+    run = tmp_path / "run"
+    options = ["--config", SMOKE, "--episodes", "2000", "--out", run, "--no-figures", "--quiet", "--view"]
+    process = start_script("train", *options)
+    address = None
+    while address is None:
+        line = process.stderr.readline()
+        assert line, "ended before it told an address"
+        address = re.search(r"http://\S+", line)
+    yield process, run, address[0]
+    if process.poll() is None:
+        process.send_signal(signal.SIGINT)
+    process.communicate(timeout=TIME_LIMIT_S)
+
+
+class Page:
+    def __init__(self, browser, address):
+        self.foreign = []  # requests to elsewhere
+        self.page = browser.new_page(viewport={"width": 760, "height": 420})
+        self.page.set_default_timeout(SLOW_MS)
+        self.page.on("request", lambda request: self._look(request.url, address))
+        self.page.goto(address)
+
+    def _look(self, url, address):
+        if not url.startswith((address, f"blob:{address[: address.index('/', 8)]}", "data:")):
+            self.foreign.append(url)
+
+    def find(self, pattern):
+        """Groups of a pattern in the page's text, once it is there."""
+        deadline = time.monotonic() + SLOW_MS / 1000
+        while not (found := re.search(pattern, self.page.inner_text("body"))):
+            assert time.monotonic() < deadline, f"{pattern} is not in:\n{self.page.inner_text('body')}"
+            time.sleep(0.1)
+        return found.groups()
+
+    def press(self, label):
+        self.page.get_by_text(label).first.dispatch_event("click")
+
+    def plant_time(self):
+        return float(self.find(r"plant time ([\d.]+) s")[0])
+
+    def picture(self):
+        return self.page.locator("canvas").first.screenshot(timeout=SLOW_MS, animations="allow")
+
+
+def test_what_the_page_shows_and_what_is_pressed_in_it(training, browser, tmp_path):
+    process, run, address = training
+    page = Page(browser, address)
+    page.find(r"4 times real time")  # as it begins where a page was asked for
+
+    page.press("Pause")
+    page.find(r"pace: paused")
+    time.sleep(0.5)  # texts are renewed five times a second
+    paused = page.plant_time()
+    before = page.picture()
+    assert page.plant_time() == paused, "nothing moves"
+    episode, step = page.find(r"Episode (\d+), decision (\d+)")
+    value, margin = page.find(r"Q of the action\s+(\S+)[\s\S]*stability margin\s+(\S+) m")
+
+    page.press("One decision")
+    while page.plant_time() == paused:
+        assert process.poll() is None
+    time.sleep(0.5)
+    assert page.plant_time() == pytest.approx(paused + PERIOD_S), "one decision, and no more"
+    page.find(r"pace: paused")
+
+    page.press("Go on")
+    page.find(r"4 times real time")
+    while page.plant_time() < paused + 8 * PERIOD_S:
+        assert process.poll() is None
+    assert page.picture() != before, "the robot has moved"
+    assert page.foreign == []
+
+    page.page.close()
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=TIME_LIMIT_S)
+    assert processes_that_mention(f"limphome_lab.view.view\0--pid\0{process.pid}\0") == []
+    shown = [
+        decision
+        for _, decision in recorded(run / "messages.lcmlog", DECISION)
+        if (decision.episode, decision.step) == (int(episode), int(step))
+    ]
+    assert (value, margin) in [(f"{each.q:.3f}", f"{each.stability_margin:.3f}") for each in shown]
+
+
+def test_it_joins_and_leaves_and_the_next_run_shows_up(browser, tmp_path):
+    view = start_script("view")
+    address = re.search(r"http://\S+", view.stdout.readline())[0]
+    page = Page(browser, address)
+    page.find("nothing is running")
+    for name in ("first", "second"):
+        options = ["--config", SMOKE, "--episodes", "100000", "--out", tmp_path / name, "--no-figures", "--quiet"]
+        training = start_script("train", *options)
+        page.find(rf"{name}[\s\S]*Episode \d+, decision \d+")
+        training.send_signal(signal.SIGINT)
+        training.communicate(timeout=TIME_LIMIT_S)
+        page.find("has ended")
+    view.send_signal(signal.SIGINT)
+    assert view.communicate(timeout=TIME_LIMIT_S)[1] == ""
+    assert view.returncode == 128 + signal.SIGINT
+    assert processes_that_mention("limphome_lab.view.feed") == []
