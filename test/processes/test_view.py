@@ -1,37 +1,17 @@
 """scripts/view in a browser: what is seen there is what the run does, and what is pressed there happens to it."""
 
-import os
 import re
-import shutil
 import signal
 import time
 
 import pytest
+from browsing import Page
 
 from conftest import SMOKE, TIME_LIMIT_S, processes_that_mention, start_script
 from limphome_lab.channels import DECISION
 from limphome_lab.messages import recorded
 
-SLOW_MS = 120_000  # a browser that draws without a graphics card takes its time
-ARGUMENTS = [  # drawing by the processor, and nothing that talks to the outside
-    *("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run"),
-    *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
-]
 PERIOD_S = 0.5
-
-
-@pytest.fixture
-def browser():
-    program = shutil.which("chromium")
-    if program is None:
-        pytest.skip("chromium is not installed; scripts/test does it")
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        root = ["--no-sandbox"] if os.geteuid() == 0 else []
-        browser = playwright.chromium.launch(executable_path=program, args=[*ARGUMENTS, *root])
-        yield browser
-        browser.close()
 
 
 @pytest.fixture
@@ -51,34 +31,8 @@ def training(tmp_path):
     process.communicate(timeout=TIME_LIMIT_S)
 
 
-class Page:
-    def __init__(self, browser, address):
-        self.foreign = []  # requests to elsewhere
-        self.page = browser.new_page(viewport={"width": 760, "height": 420})
-        self.page.set_default_timeout(SLOW_MS)
-        self.page.on("request", lambda request: self._look(request.url, address))
-        self.page.goto(address)
-
-    def _look(self, url, address):
-        if not url.startswith((address, f"blob:{address[: address.index('/', 8)]}", "data:")):
-            self.foreign.append(url)
-
-    def find(self, pattern):
-        """Groups of a pattern in the page's text, once it is there."""
-        deadline = time.monotonic() + SLOW_MS / 1000
-        while not (found := re.search(pattern, self.page.inner_text("body"))):
-            assert time.monotonic() < deadline, f"{pattern} is not in:\n{self.page.inner_text('body')}"
-            time.sleep(0.1)
-        return found.groups()
-
-    def press(self, label):
-        self.page.get_by_text(label).first.dispatch_event("click")
-
-    def plant_time(self):
-        return float(self.find(r"plant time ([\d.]+) s")[0])
-
-    def picture(self):
-        return self.page.locator("canvas").first.screenshot(timeout=SLOW_MS, animations="allow")
+def plant_time(page):
+    return float(page.find(r"plant time ([\d.]+) s")[0])
 
 
 def test_what_the_page_shows_and_what_is_pressed_in_it(training, browser, tmp_path):
@@ -89,22 +43,22 @@ def test_what_the_page_shows_and_what_is_pressed_in_it(training, browser, tmp_pa
     page.press("Pause")
     page.find(r"pace: paused")
     time.sleep(0.5)  # texts are renewed five times a second
-    paused = page.plant_time()
+    paused = plant_time(page)
     before = page.picture()
-    assert page.plant_time() == paused, "nothing moves"
+    assert plant_time(page) == paused, "nothing moves"
     episode, step = page.find(r"Episode (\d+), decision (\d+)")
     value, margin = page.find(r"Q of the action\s+(\S+)[\s\S]*stability margin\s+(\S+) m")
 
     page.press("One decision")
-    while page.plant_time() == paused:
+    while plant_time(page) == paused:
         assert process.poll() is None
     time.sleep(0.5)
-    assert page.plant_time() == pytest.approx(paused + PERIOD_S), "one decision, and no more"
+    assert plant_time(page) == pytest.approx(paused + PERIOD_S), "one decision, and no more"
     page.find(r"pace: paused")
 
     page.press("Go on")
     page.find(r"4 times real time")
-    while page.plant_time() < paused + 8 * PERIOD_S:
+    while plant_time(page) < paused + 8 * PERIOD_S:
         assert process.poll() is None
     assert page.picture() != before, "the robot has moved"
     assert page.foreign == []
