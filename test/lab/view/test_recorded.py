@@ -1,9 +1,9 @@
 """A recorded episode at any moment of it, against motions that are known in closed form."""
 
-import logs
 import numpy as np
 import pytest
 
+import logs
 from limphome import episode_t
 from limphome_lab import paths, quaternion
 from limphome_lab.channels import DECISION, EPISODE, STATE
