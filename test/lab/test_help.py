@@ -15,9 +15,11 @@ SCRIPTS = (
     "compare",
     "diagnose",
     "evaluate",
+    "export",
     "faults",
     "launch",
     "plot",
+    "replay",
     "results",
     "robot",
     "setup",
@@ -28,6 +30,7 @@ SCRIPTS = (
     "train",
     "validate",
     "verify",
+    "view",
 )
 TOOLS = ("bash", "dirname", "env", "readlink", "sed")  # all of a bare Debian that a help needs
 

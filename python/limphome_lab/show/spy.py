@@ -8,15 +8,21 @@ from limphome_lab import channels, command, network, paths, registry
 from limphome_lab.ending import with_exit_code
 from limphome_lab.runfolder import InputError
 
-PREFIX = "LIMPHOME_"
+PREFIX = channels.STATE.removesuffix("STATE")
 
 
 def parse_arguments():
-    parser = command.parser("spy", "Shows the messages of a running pair: lcm-spy with our types decoded.", "--text --channel STATUS")
+    parser = command.parser(
+        "spy", "Shows the messages of a running pair: lcm-spy with our types decoded.", "--text --channel STATUS"
+    )
     parser.add_argument("run", metavar="RUN", nargs="?", help="run folder of the pair; default: the one started last")
     parser.add_argument("--text", action="store_true", help="in this terminal, without Java or a display")
     parser.add_argument(
-        "--channel", action="append", default=[], metavar="NAME", help="with --text: only this one, such as STATUS; repeatable"
+        "--channel",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="with --text: only this one, such as STATUS; repeatable",
     )
     args = parser.parse_args()
     if args.channel and not args.text:
@@ -26,7 +32,7 @@ def parse_arguments():
 
 
 def full_name(name, parser):
-    """LIMPHOME_STATUS of "status"."""
+    """The name of the channel that a short one such as "status" stands for."""
     names = sorted(value for key, value in vars(channels).items() if key.isupper())
     found = next((each for each in names if name.upper() in (each, each.removeprefix(PREFIX))), None)
     if found is None:

@@ -22,7 +22,11 @@ from limphome_lab.show import constants, spy, spy_text
         (DECISION, {"interventions": decision_t.TILT | decision_t.STOP}, "interventions TILT + STOP"),
         (DECISION, {"interventions": 1 << 30}, f"interventions {1 << 30}"),
         (STATE, {"num_actuators": 1}, "num_actuators 1"),
-        (STATE, {"actuator_health": [1, 0, 0, 0, 0, 0, 0, 2]}, "actuator_health FAILED OBEYS OBEYS OBEYS OBEYS OBEYS OBEYS WEAK"),
+        (
+            STATE,
+            {"actuator_health": [1, 0, 0, 0, 0, 0, 0, 2]},
+            "actuator_health FAILED OBEYS OBEYS OBEYS OBEYS OBEYS OBEYS WEAK",
+        ),
         (POSE, {"pace": pose_t.PACE_FREE}, "pace PACE_FREE"),
     ],
 )

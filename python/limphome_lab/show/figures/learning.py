@@ -18,9 +18,7 @@ def draw(episodes):
     goals.plot(number, style.running(reached, np.mean, window), color=style.GREEN, linewidth=2)
     goals.set(ylabel="reached the goal [%]", xlabel="episode", ylim=(-3, 103), xlim=(number[0] - 1, number[-1] + 1))
     goals.xaxis.set_major_locator(plt.MaxNLocator(integer=True))
-    duration.set_title(
-        f"Single episodes, and their running median of {window}; goals as a running mean of {window}"
-    )
+    duration.set_title(f"Single episodes, and their running median of {window}; goals as a running mean of {window}")
     return figure
 
 

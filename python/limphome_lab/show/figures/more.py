@@ -21,7 +21,9 @@ def draw(folder, out=None, episode=None, value_map=None, paper=False):
     chosen = None if value_map is None else policy.chosen(learned, value_map)
     told, states, decisions, evenly = _decided(folder, episode)
     drawn = figures(folder)
-    drawn["fig_rewards"] = rewards.draw([SimpleNamespace(letter="", differs={}, runs=[SimpleNamespace(episodes=folder.read_episodes())])])
+    drawn["fig_rewards"] = rewards.draw(
+        [SimpleNamespace(letter="", differs={}, runs=[SimpleNamespace(episodes=folder.read_episodes())])]
+    )
     drawn["fig_margin"] = stretch.draw(model, told, states, decisions)
     drawn["fig_actions"] = actions.draw(model, _controlled(folder), evenly)
     if learned is not None:
@@ -60,7 +62,9 @@ def _decided(folder, wanted):
     decided = [decision for decision in map(decision_t.decode, decisions) if decision.episode == episode.episode]
     states = states_of(episode, states)
     if len(states) < 2 or len(decided) < 2:
-        raise InputError(f"{folder.messages}: what episode {episode.episode} consisted of was dropped (recording.limit_mb)")
+        raise InputError(
+            f"{folder.messages}: what episode {episode.episode} consisted of was dropped (recording.limit_mb)"
+        )
     return episode, states, decided, [decision_t.decode(data) for data in evenly]
 
 
