@@ -16,7 +16,7 @@ from bus import REAL_TIME, Bus, controller, inside, settings
 from conftest import ROOT, TIME_LIMIT_S, start_script, wait_until
 from limphome import arm_request_t, status_t
 from limphome_lab import network, paths, registry
-from limphome_lab.channels import COMMAND, STATE
+from limphome_lab.channels import COMMAND, POSE, STATE
 from limphome_lab.messages import recorded
 from limphome_lab.recording import TornRecording
 from limphome_lab.runfolder import RunFolder, resolve_settings
@@ -154,6 +154,7 @@ def drive(folder, interface):
         seen["motors rest without a driver"] = not any(bus.state.actuator_velocity) and machine.travel(last) < 0.6
         seen["moves with another"] = machine.arm()
         seen["commands"] = bus.counts[COMMAND] > 0
+        seen["viewers see it move"] = bus.counts[POSE] > 2 * bus.counts[STATE]
         seen["driver's end"] = driver.end()
         seen["words"] = bus.programs[1 if interface == "slcan" else 0].words()
     return seen
