@@ -160,12 +160,20 @@ def drive(folder, interface):
     return seen
 
 
-@pytest.mark.parametrize("interface", ["slcan", "socketcan"])
-def test_machine_on_a_can_bus(tmp_path, interface):
+TROUBLE = pytest.mark.fault(
+    "a machine on a CAN bus is stopped, breaks and falls silent",
+    injected="in turn: it is disarmed, a motor fails, the emergency stop, the motor controllers die, the driver dies",
+    expected="all motors come to rest each time, it is said why, and it moves on once a person has armed it again",
+)
+
+
+@pytest.mark.parametrize("interface", [pytest.param("slcan", marks=TROUBLE), "socketcan"])
+def test_machine_on_a_can_bus(tmp_path, observe, interface):
     if interface == "socketcan" and not has_vcan():
         pytest.skip("this kernel has no vcan")
     seen = inside(drive, str(tmp_path), interface)
     words = seen.pop("words")
+    observe("; ".join(what for what, good in seen.items() if good))
     assert "motor 1 has no power: all motors stop" in words
     assert "is silent: all motors stop" in words
     assert seen.pop("states before all nodes have spoken") == 0
@@ -257,8 +265,15 @@ def lose_the_bus(folder):
         return [code, driver.words().splitlines()[-1]]
 
 
-def test_driver_ends_where_its_adapter_is_gone(tmp_path):
-    assert inside(lose_the_bus, str(tmp_path)) == [1, "CAN adapter: Input/output error"]
+@pytest.mark.fault(
+    "the adapter of a driver is gone",
+    injected="its serial line is hung up",
+    expected="it ends with exit code 1 and says so",
+)
+def test_driver_ends_where_its_adapter_is_gone(tmp_path, observe):
+    ended = inside(lose_the_bus, str(tmp_path))
+    observe(str(ended))
+    assert ended == [1, "CAN adapter: Input/output error"]
 
 
 @pytest.mark.parametrize(
