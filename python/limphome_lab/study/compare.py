@@ -101,7 +101,9 @@ def text(found, told):
             f"{_middle(each['quartiles_duration_s'], '{:.1f}'):>18} "
             f"{_middle(each['quartiles_lateral_error_m'], '{:.2f}'):>18}"
         )
-    lines += wrapped([f"medians (quartiles) over the seeds; duration and offset are those of the last {learned.LAST} episodes"])
+    lines += wrapped(
+        [f"medians (quartiles) over the seeds; duration and offset are those of the last {learned.LAST} episodes"]
+    )
     for each in found:
         lines += ["", f"{each['letter']:<4}seed  learned at  held  minutes  goals  duration  beside  reward  tumbles"]
         lines += [f"    {_seed_row(seed)}" for seed in each["seeds"]]
@@ -166,7 +168,9 @@ def parse_arguments():
     )
     parser.add_argument("runs", metavar="RUN", nargs="+", help="run folder, folder of such, or folder of a study")
     parser.add_argument(
-        "--hard", action="store_true", help="learned: the limit of 9 s follows each run's own best pace, see docs/study.md"
+        "--hard",
+        action="store_true",
+        help="learned: the limit of 9 s follows each run's own best pace, see docs/study.md",
     )
     form = parser.add_mutually_exclusive_group()
     form.add_argument("--json", action="store_true", help="print JSON instead of tables")

@@ -44,8 +44,11 @@ class Recording:
     def numbers(self):
         return [entry.number for entry in self.entries]
 
-    def episode(self, number):
-        """The Track of an episode; InputError where the recording has none of that number."""
+    def episode(self, number=None):
+        """The Track of an episode, None: the last that ended, if one has; InputError where the recording has none of that
+        number."""
+        if number is None:
+            number = next((entry.number for entry in reversed(self.entries) if entry.ending), self.numbers[-1])
         found = [entry for entry in self.entries if entry.number == number]
         if not found:
             raise InputError(

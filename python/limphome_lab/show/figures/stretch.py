@@ -16,7 +16,13 @@ def draw(file, episode, states, decisions):
     _margin(margin, decided, [decision.stability_margin for decision in decisions])
     _torque(torque, robot, [state.utime * 1e-6 - begin for state in states], states)
     way.plot(decided, [decision.goal_distance for decision in decisions], color=style.BLUE, label="still to go")
-    way.plot(decided, [decision.lateral_error for decision in decisions], color=style.RED, linestyle="--", label="to the left")
+    way.plot(
+        decided,
+        [decision.lateral_error for decision in decisions],
+        color=style.RED,
+        linestyle="--",
+        label="to the left",
+    )
     way.axhline(0, color=style.FAINT, linewidth=1)
     way.set(xlabel="time in the episode [s]", ylabel="from the line [m]")
     way.legend(loc="best")
@@ -29,7 +35,9 @@ def _margin(axes, times, margins):
     axes.plot(times, margins, color=style.GREEN)
     axes.axhline(0, color=style.INK, linewidth=1)
     if (margins < 0).any():
-        axes.fill_between(times, margins, 0, where=margins < 0, color=style.RED, alpha=0.3, linewidth=0, label="unstable")
+        axes.fill_between(
+            times, margins, 0, where=margins < 0, color=style.RED, alpha=0.3, linewidth=0, label="unstable"
+        )
         axes.legend(loc="best")
     axes.set_ylabel("stability margin (11) [m]")
 
