@@ -16,6 +16,7 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 from conftest import ROOT, SMOKE, TIME_LIMIT_S, train
+from limphome_lab import network
 from limphome_lab.channels import DECISION, EPISODE
 from limphome_lab.ending import InputError
 from limphome_lab.gym import ID, LimpHome, LimpHomeVector
@@ -177,6 +178,24 @@ def test_the_vector_is_what_make_vec_makes():
     vector.close()
 
 
+def test_a_python_for_each_comes_to_the_same(make):
+    ours = make(LimpHomeVector, num_envs=2, config=NOISY, set=SHORT)
+    theirs = gymnasium.make_vec(ID, num_envs=2, vectorization_mode="async", config=NOISY, set=SHORT)
+    assert ours.reset(seed=4)[0].tolist() == theirs.reset(seed=4)[0].tolist()
+    for action in actions_of(3, 5):
+        actions = np.array([action, 80 - action])
+        for ours_told, theirs_told in zip(ours.step(actions)[:4], theirs.step(actions)[:4], strict=True):
+            assert ours_told.tolist() == theirs_told.tolist()
+    theirs.close()
+
+
+@pytest.mark.skipif(network.group_is_on_loopback(), reason="the host's network may be used here")
+def test_where_nothing_may_be_sent_it_is_told(monkeypatch):
+    monkeypatch.setattr(network, "private_prefix", lambda: None)
+    with pytest.warns(UserWarning, match="namespaces"), pytest.raises(network.NetworkError, match="run once"):
+        LimpHome()
+
+
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
@@ -215,7 +234,7 @@ def test_a_simulator_that_dies_is_told(make):
     env = make()
     env.reset()
     os.kill(simulator_of(env), signal.SIGKILL)
-    with pytest.raises(PlantEnded, match="ended early"):
+    with pytest.raises(PlantEnded, match=r"ended early \(signal SIGKILL\)"):
         env.step(0)
 
 
