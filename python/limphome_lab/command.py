@@ -31,7 +31,7 @@ def parser(name, description, example):
 
 
 def did_you_mean(name, suffix):
-    """", did you mean ...?" for the name of a file of that kind that is not there; nothing where none that comes along
+    """ ", did you mean ...?" for the name of a file of that kind that is not there; nothing where none that comes along
     is like it."""
     own = {file.stem: file for file in sorted(paths.CONFIG.rglob(f"*{suffix}"))}
     stem = Path(name).name.removesuffix(suffix)

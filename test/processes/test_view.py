@@ -1,5 +1,6 @@
 """scripts/view in a browser: what is seen there is what the run does, and what is pressed there happens to it."""
 
+import json
 import os
 import re
 import shutil
@@ -8,9 +9,14 @@ import time
 
 import pytest
 
-from conftest import SMOKE, TIME_LIMIT_S, processes_that_mention, start_script
-from limphome_lab.channels import DECISION
+from conftest import SMOKE, TIME_LIMIT_S, processes_that_mention, start_script, wait_until
+from limphome import pace_t, pose_t
+from limphome_lab import registry
+from limphome_lab.channels import DECISION, PACE, POSE
 from limphome_lab.messages import recorded
+from limphome_lab.run import hand
+from limphome_lab.view.feed import Feed
+from limphome_lab.view.operate import ASKED, TOLD
 
 SLOW_MS = 120_000  # a browser that draws without a graphics card takes its time
 ARGUMENTS = [  # drawing by the processor, and nothing that talks to the outside
@@ -18,6 +24,7 @@ ARGUMENTS = [  # drawing by the processor, and nothing that talks to the outside
     *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
 ]
 PERIOD_S = 0.5
+SWING = 2  # actuator
 
 
 @pytest.fixture
@@ -51,6 +58,58 @@ def training(tmp_path):
     process.communicate(timeout=TIME_LIMIT_S)
 
 
+def heard(feed, condition):
+    """What a feed has told until `condition(channel, data)`."""
+    deadline = time.monotonic() + TIME_LIMIT_S
+    while time.monotonic() < deadline:
+        messages = feed.newest()
+        assert messages is not None, "the feed has ended"
+        for message in messages:
+            if condition(*message):
+                return message
+        time.sleep(0.02)
+    raise AssertionError("waited in vain")
+
+
+def pace_of(action, pace=0.0):
+    message = pace_t()
+    message.action, message.pace = action, pace
+    return message.encode()
+
+
+def test_a_feed_takes_the_robot_by_hand_and_gives_it_back(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    options = ["--config", SMOKE, "--episodes", "100000", "--out", tmp_path / "run", "--no-figures", "--quiet"]
+    process = start_script("train", *options)
+    wait_until(process, registry.running)
+    feed = Feed(registry.running()[0])
+
+    def ask(**asked):
+        feed.say(ASKED, json.dumps(asked).encode())
+
+    def in_charge(who):
+        return lambda channel, data: channel == TOLD and json.loads(data).get("in_charge") == who
+
+    def swing(channel, data):
+        return channel == POSE and pose_t.decode(data).actuator_position[SWING]
+
+    try:
+        heard(feed, lambda channel, _: channel == POSE)
+        feed.say(PACE, pace_of(pace_t.RUN, 1.0))
+        heard(feed, lambda channel, data: channel == POSE and pose_t.decode(data).pace == 1.0)
+        ask(do="take")
+        heard(feed, in_charge(hand.ME))
+        before = swing(*heard(feed, lambda channel, _: channel == POSE))
+        ask(drive=[0, 0, 1 if before < 0 else -1])
+        heard(feed, lambda channel, data: channel == POSE and abs(swing(channel, data) - before) > 0.1)
+        ask(do="give")
+        heard(feed, in_charge(hand.LEARNER))
+    finally:
+        feed.close()
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=TIME_LIMIT_S)
+
+
 class Page:
     def __init__(self, browser, address):
         self.foreign = []  # requests to elsewhere
@@ -77,6 +136,15 @@ class Page:
     def plant_time(self):
         return float(self.find(r"plant time ([\d.]+) s")[0])
 
+    def step(self, before):
+        """One decision on from a plant time; returns the one after."""
+        self.press("Step")
+        deadline = time.monotonic() + SLOW_MS / 1000
+        while self.plant_time() == before:
+            assert time.monotonic() < deadline
+        time.sleep(0.5)
+        return self.plant_time()
+
     def picture(self):
         return self.page.locator("canvas").first.screenshot(timeout=SLOW_MS, animations="allow")
 
@@ -95,11 +163,9 @@ def test_what_the_page_shows_and_what_is_pressed_in_it(training, browser, tmp_pa
     episode, step = page.find(r"Episode (\d+), decision (\d+)")
     value, margin = page.find(r"Q of the action\s+(\S+)[\s\S]*stability margin\s+(\S+) m")
 
-    page.press("One decision")
-    while page.plant_time() == paused:
-        assert process.poll() is None
-    time.sleep(0.5)
-    assert page.plant_time() == pytest.approx(paused + PERIOD_S), "one decision, and no more"
+    stepped = page.step(paused)  # to the end of the period that it was paused in
+    assert stepped <= paused + PERIOD_S + 1e-6
+    assert page.step(stepped) == pytest.approx(stepped + PERIOD_S), "one decision, and no more"
     page.find(r"pace: paused")
 
     page.press("Go on")

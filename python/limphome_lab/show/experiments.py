@@ -120,7 +120,9 @@ def group(runs):
         of_seed = {}
         for run in members:
             if run.seed in of_seed:
-                told.append(f"passed over {run.folder.path.name}: {of_seed[run.seed].folder.path.name} is the same, seed too")
+                told.append(
+                    f"passed over {run.folder.path.name}: {of_seed[run.seed].folder.path.name} is the same, seed too"
+                )
             of_seed.setdefault(run.seed, run)
         differs = {key: _shown(members[0], key, runs) for key in differing}
         experiments.append(Experiment(letter(number), differs, [of_seed[seed] for seed in sorted(of_seed)]))

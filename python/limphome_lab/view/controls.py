@@ -11,10 +11,10 @@ from limphome_lab.view.scene import LAYERS
 PACES = {"1/4": 0.25, "1": 1.0, "4": 4.0, "20": 20.0, "free": pose_t.PACE_FREE}
 KEEP_EVERY_S = 1.0
 SIDES = {  # where the eye is, from the robot [m]; it stands facing +y
-    "from behind": (2.4, -3.2, 2.2),
-    "from the side": (4.2, 0.2, 1.3),
-    "from ahead": (-2.4, 3.6, 1.8),
-    "from above": (0.0, -0.5, 6.0),
+    "from behind": (2.8, -3.7, 2.5),
+    "from the side": (5.0, 0.4, 1.5),
+    "from ahead": (-2.8, 4.2, 2.2),
+    "from above": (0.0, -0.5, 7.0),
 }
 LOOKED_AT = (0.0, 0.3, 0.45)
 FIELD_OF_VIEW = np.radians(45)
@@ -28,37 +28,35 @@ class Pace:
         self._kept = 0.0
         self.wanted = None  # held to it; None: as it comes
         self.text = gui.add_markdown("pace: -")
-        self._buttons = [
-            self._button(gui, "Pause", "P", lambda: self.pause_or_go(), later),
-            self._button(gui, "One decision", "N", lambda: self.send(pace_t.STEP), later),
-            self._button(gui, "Reset the robot", "R", lambda: self.send(pace_t.RESET), later),
-        ]
+        acts = {
+            "Pause": lambda: self.send(pace_t.PAUSE),
+            "Go on": self._go_on,
+            "Step": lambda: self.send(pace_t.STEP),
+            "Reset": lambda: self.send(pace_t.RESET),
+        }
+        self._acts = gui.add_button_group("time (P, N, R)", tuple(acts))
+        self._acts.on_click(lambda _: later(acts[self._acts.value]))
+        for words, key, act in (
+            ("Pause or go on", "P", lambda: (acts["Go on"] if self._paused else acts["Pause"])()),
+            ("One decision", "N", acts["Step"]),
+            ("Reset the robot", "R", acts["Reset"]),
+        ):
+            gui.add_command(words, hotkey=key).on_trigger(lambda _, act=act: later(act))
         self._choice = gui.add_button_group("pace", tuple(PACES))
         self._choice.on_click(lambda _: later(lambda: self.run(PACES[self._choice.value])))
         self._paused = False
-
-    def _button(self, gui, label, key, action, later):
-        button = gui.add_button(f"{label}  ({key})")
-        button.on_click(lambda _: later(action))
-        gui.add_command(label, hotkey=key).on_trigger(lambda _: later(action))
-        return button
 
     def run(self, pace):
         self.wanted = pace
         self.send(pace_t.RUN, pace)
 
-    def pause_or_go(self):
-        if self._paused:
-            self.run(1.0 if self.wanted is None else self.wanted)
-        else:
-            self.send(pace_t.PAUSE)
+    def _go_on(self):
+        self.run(1.0 if self.wanted is None else self.wanted)
 
     def show(self, pace, lockstep):
         """What the plant says. One in real time goes by the clock and cannot be held."""
         self._paused = pace == 0
-        self._buttons[0].label = "Go on  (P)" if self._paused else "Pause  (P)"
-        for each in (*self._buttons, self._choice):
-            each.disabled = not lockstep
+        self._acts.visible = self._choice.visible = lockstep
 
     def keep(self):
         """Call often while somebody looks: a plant that is held goes on by itself once its viewer is gone."""

@@ -32,7 +32,7 @@ MOST_CORNERS = 24  # of the support polygon, as in ground_truth_t
 GOAL_PIECES = 20  # that follow the ground
 GLASS = 0.35  # opacity
 
-LAYERS = ("trail", "goal line", "support polygon", "centre of mass", "contact forces")
+LAYERS = ("trail", "goal line", "support polygon", "centre of mass", "contact forces", "labels")
 GRAVITY = 9.81  # [m/s^2]
 
 
@@ -46,6 +46,8 @@ class RobotScene:
         self.follow = False  # keeps the robot at the offset and moves the world under it, so that the eye can stay
         self._root = scene.add_frame(f"/{name}", show_axes=False)
         self.place(offset)
+        # what is drawn by its corners comes a moment later than where a node is: corners are those from the robot
+        self._here = scene.add_frame(self._path("here"), show_axes=False)
         self._bodies = [
             scene.add_frame(self._path(f"body{index}"), show_axes=False) for index in range(len(robot.bodies))
         ]
@@ -77,6 +79,7 @@ class RobotScene:
             self._trail = []
         self.frame = frame
         self._place_root()
+        self._here.position = frame.position
         for handle, pose in zip(
             self._bodies,
             self.robot.frames(frame.actuator_position, frame.position, frame.orientation),
@@ -164,8 +167,9 @@ class RobotScene:
                 handle.color = rgb(style.RED if failed else colour)
             if failed and actuator not in self._labels:
                 self._labels[actuator] = self._add_label(actuator)
+                self._layers["labels"].append(self._labels[actuator])
             if actuator in self._labels:
-                self._labels[actuator].visible = failed
+                self._labels[actuator].visible = failed and self.shown["labels"]
 
     def _add_label(self, actuator):
         crawler = actuator < len(self.robot.crawlers)
@@ -182,15 +186,21 @@ class RobotScene:
         corners = np.zeros((MOST_CORNERS, 3))
         fan = np.array([[0, k, k + 1] for k in range(1, MOST_CORNERS - 1)])
         area = add.add_mesh_simple(
-            self._path("support"), corners, fan, opacity=0.45, side="double", cast_shadow=False, receive_shadow=False
+            self._path("here/support"),
+            corners,
+            fan,
+            opacity=0.45,
+            side="double",
+            cast_shadow=False,
+            receive_shadow=False,
         )
-        edge = add.add_line_segments(self._path("support_edge"), nothing, (0, 0, 0), thickness=0.02)
-        ball = add.add_icosphere(self._path("mass"), radius=0.06, color=CENTRE_OF_MASS)
-        plumb = add.add_line_segments(self._path("plumb"), nothing, RIM, thickness=0.015)
-        foot = add.add_cylinder(self._path("foot"), radius=0.05, height=0.01, color=RIM)
-        forces = add.add_arrows(self._path("forces"), nothing, FORCE, shaft_radius=0.018, head_radius=0.045)
+        edge = add.add_line_segments(self._path("here/support_edge"), nothing, (0, 0, 0), thickness=0.02)
+        ball = add.add_icosphere(self._path("here/mass"), radius=0.06, color=CENTRE_OF_MASS)
+        plumb = add.add_line_segments(self._path("here/plumb"), nothing, RIM, thickness=0.015)
+        foot = add.add_cylinder(self._path("here/foot"), radius=0.05, height=0.01, color=RIM)
+        forces = add.add_arrows(self._path("here/forces"), nothing, FORCE, shaft_radius=0.018, head_radius=0.045)
         self._layers = dict(
-            zip(LAYERS, ([trail], [self._goal], [area, edge], [ball, plumb, foot], [forces]), strict=True)
+            zip(LAYERS, ([trail], [self._goal], [area, edge], [ball, plumb, foot], [forces], []), strict=True)
         )
 
     def _ground_level(self):
@@ -215,7 +225,7 @@ class RobotScene:
         area.visible = edge.visible = self.shown["support polygon"] and there
         if not there:
             return
-        corners = np.asarray(support)[:MOST_CORNERS] + (0, 0, ABOVE_GROUND)
+        corners = np.asarray(support)[:MOST_CORNERS] + (0, 0, ABOVE_GROUND) - self.frame.position
         area.vertices = np.vstack([corners, np.repeat(corners[-1:], MOST_CORNERS - len(corners), axis=0)])
         edge.points = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
         area.color = margin_colour(self.frame.margin)
@@ -229,7 +239,8 @@ class RobotScene:
             return
         support = self.frame.support
         level = self._ground_level() if support is None or not len(support) else np.mean(support, axis=0)[2]
-        below = np.array([centre[0], centre[1], level + ABOVE_GROUND])
+        below = np.array([centre[0], centre[1], level + ABOVE_GROUND]) - self.frame.position
+        centre = centre - self.frame.position
         ball.position, foot.position = centre, below
         plumb.points = np.array([[centre, below]])
 
@@ -243,7 +254,7 @@ class RobotScene:
         felt = np.linalg.norm(force, axis=1) > LEAST_FORCE * weight
         handle.visible = self.shown["contact forces"] and bool(felt.any())
         if felt.any():
-            at = point[felt]
+            at = point[felt] - self.frame.position
             handle.points = np.stack([at, at + METRES_PER_WEIGHT / weight * force[felt]], axis=1)
 
 

@@ -3,20 +3,21 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from limphome_lab.robot import read
 from limphome_lab.show.figures import style
 
 STRETCHES = 12  # of the run, at most
 LEVELS = (("reverse", style.ORANGE), ("still", "#d8dde3"), ("forward", style.BLUE))  # digits 0, 1, 2 of an action
 
 
-def draw(file, controlled, decisions):
-    """`file`: of the robot; `controlled`: indices of actuators; `decisions`: of the whole run, or evenly chosen."""
-    names = [read(file).actuators[index].replace("_", " ") for index in controlled]
+def draw(robot, controlled, decisions):
+    """`robot`: as limphome_lab.robot reads it; `controlled`: indices of actuators; `decisions`: of the whole run, or evenly chosen."""
+    names = [robot.actuators[index].replace("_", " ") for index in controlled]
     episode = np.array([decision.episode for decision in decisions])
     action = np.array([decision.action for decision in decisions])
     edges = np.unique(np.linspace(episode.min(), episode.max() + 1, STRETCHES + 1).round().astype(int))
-    figure, grid = plt.subplots(len(names), 1, figsize=(7.2, 1.5 + 1.25 * len(names)), sharex=True, squeeze=False, layout="constrained")
+    figure, grid = plt.subplots(
+        len(names), 1, figsize=(7.2, 1.5 + 1.25 * len(names)), sharex=True, squeeze=False, layout="constrained"
+    )
     for k, (axes, name) in enumerate(zip(grid[:, 0], names, strict=True)):
         _levels(axes, edges, episode, action // 3**k % 3)
         axes.set(ylabel=name, ylim=(0, 100), yticks=(0, 50, 100))
@@ -34,6 +35,15 @@ def _levels(axes, edges, episode, level):
     for value, (_, colour) in enumerate(LEVELS):
         chosen = np.bincount(stretch[level == value], minlength=len(bottom))
         share = 100 * chosen / np.maximum(np.bincount(stretch, minlength=len(bottom)), 1)
-        axes.bar(edges[:-1] - 0.5, share, np.diff(edges), bottom, align="edge", color=colour, edgecolor="white", linewidth=0.5)
+        axes.bar(
+            edges[:-1] - 0.5,
+            share,
+            np.diff(edges),
+            bottom,
+            align="edge",
+            color=colour,
+            edgecolor="white",
+            linewidth=0.5,
+        )
         bottom += share
     axes.grid(visible=False)

@@ -27,8 +27,8 @@ def fit(figure):
     for text in figure.findobj(Text):
         text.set_fontsize(min(text.get_fontsize(), SMALL if text.get_fontsize() < 10 else FONT))
     for line in figure.findobj(Line2D):
-        line.set_linewidth(max(0.5, line.get_linewidth() * shrunk ** 0.6))
-        line.set_markersize(line.get_markersize() * shrunk ** 0.6)
+        line.set_linewidth(max(0.5, line.get_linewidth() * shrunk**0.6))
+        line.set_markersize(line.get_markersize() * shrunk**0.6)
     for marks in figure.findobj(PathCollection):
         marks.set_sizes(marks.get_sizes() * shrunk)
     for legend in [*figure.legends, *(axes.get_legend() for axes in panels)]:

@@ -3,20 +3,24 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from limphome_lab.robot import read
 from limphome_lab.show.figures import style
 
 
-def draw(file, episode, states, decisions):
-    """`file`: of the robot; the rest: the messages of one episode."""
-    robot = read(file)
+def draw(robot, episode, states, decisions):
+    """`robot`: as limphome_lab.robot reads it; the rest: the messages of one episode."""
     begin = episode.utime * 1e-6 - episode.duration
     figure, (margin, torque, way) = plt.subplots(3, 1, figsize=(7.2, 7.4), sharex=True, layout="constrained")
     decided = [decision.utime * 1e-6 - begin for decision in decisions]
     _margin(margin, decided, [decision.stability_margin for decision in decisions])
     _torque(torque, robot, [state.utime * 1e-6 - begin for state in states], states)
     way.plot(decided, [decision.goal_distance for decision in decisions], color=style.BLUE, label="still to go")
-    way.plot(decided, [decision.lateral_error for decision in decisions], color=style.RED, linestyle="--", label="to the left")
+    way.plot(
+        decided,
+        [decision.lateral_error for decision in decisions],
+        color=style.RED,
+        linestyle="--",
+        label="to the left",
+    )
     way.axhline(0, color=style.FAINT, linewidth=1)
     way.set(xlabel="time in the episode [s]", ylabel="from the line [m]")
     way.legend(loc="best")
@@ -29,7 +33,9 @@ def _margin(axes, times, margins):
     axes.plot(times, margins, color=style.GREEN)
     axes.axhline(0, color=style.INK, linewidth=1)
     if (margins < 0).any():
-        axes.fill_between(times, margins, 0, where=margins < 0, color=style.RED, alpha=0.3, linewidth=0, label="unstable")
+        axes.fill_between(
+            times, margins, 0, where=margins < 0, color=style.RED, alpha=0.3, linewidth=0, label="unstable"
+        )
         axes.legend(loc="best")
     axes.set_ylabel("stability margin (11) [m]")
 
