@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 
-from conftest import ROOT, SMOKE, TIME_LIMIT_S, train
+from conftest import ROOT, SMOKE, TIME_LIMIT_S, geared_robot, train
 from limphome_lab import network
 from limphome_lab.channels import DECISION, EPISODE
 from limphome_lab.ending import InputError
@@ -236,6 +236,19 @@ def test_a_simulator_that_dies_is_told(make):
     os.kill(simulator_of(env), signal.SIGKILL)
     with pytest.raises(PlantEnded, match=r"ended early \(signal SIGKILL\)"):
         env.step(0)
+
+
+def test_a_simulation_that_diverges_ends_the_episode_and_goes_on(tmp_path, make):
+    env = make(robot=geared_robot(tmp_path), set={"failure.actuator": "none"})
+    still, drive = 121, 124  # the right crawler
+    first, _ = env.reset()
+    assert "outcome" not in env.step(still)[4]
+    *told, info = env.step(drive)
+    assert told[1:] == [0.0, False, True] and info["outcome"] == "fault"
+    assert told[0].tolist() == first.tolist()
+    _, info = env.reset()
+    assert info["episode_number"] == 2
+    assert not any(env.step(still)[2:4])
 
 
 def test_no_simulator_is_left():
