@@ -109,6 +109,10 @@ def test_learners_have_sections_with_what_was_written_of_them(tmp_path, out):
     text = results.document([results.Run(planned), results.Run(make_run(tmp_path / "run"))], out)
     assert "## The paper's method\n\nWhat we make of it.\n\n" in text
     assert text.index("### paper\n") < text.index("## The planner") < text.index("### mine, kind = planner")
+    assert "Stable-Baselines3" not in text
+    (out / "results_stable_baselines3.md").write_text("What it came to.\n")
+    text = results.document([results.Run(planned)], out)
+    assert text.endswith("\n\n## A learner of others: DQN of Stable-Baselines3\n\nWhat it came to.\n")
 
 
 def test_figures_are_copied_beside_the_page(tmp_path, out):
