@@ -147,7 +147,8 @@ class Live:
         self._looked_at = max(self._looked_at, self._joined + OPEN_WITHIN_S - LINGER_S)
         self.curves.clear()
         self.drive.fit(described.actuators)
-        with contextlib.suppress(Ending):
+        self.episodes = []
+        with contextlib.suppress(Ending):  # its table is being begun, or is none
             self.episodes = folder.read_episodes()
         for episode in self.episodes:
             self.curves.add_episode(episode.episode, episode.reward)
