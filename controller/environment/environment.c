@@ -206,7 +206,8 @@ static int take_in(environment *e, const plant_state *taken, float *inputs, doub
 
 int environment_wait(environment *e, double timeout, float *inputs, double *values) {
     const double end = bus_now() + timeout;
-    for (double left = timeout; left > 0; left = end - bus_now()) {
+    double left = timeout;
+    do {
         if (!plant_link_wait(&e->link, left)) {
             fail_with(e->error, "the bus is broken");
             return ENVIRONMENT_FAILED;
@@ -216,7 +217,8 @@ int environment_wait(environment *e, double timeout, float *inputs, double *valu
         if (plant_link_take(&e->link, &taken)) {
             return take_in(e, &taken, inputs, values);
         }
-    }
+        left = end - bus_now();
+    } while (left > 0);
     return ENVIRONMENT_WAITING;
 }
 

@@ -1,12 +1,13 @@
 """Trains a learner of Stable-Baselines3 on limphome's task and measures it as ours are measured.
 
-example: .venv/bin/python examples/stable_baselines3/train.py --seed 1 --minutes 10
+example: .venv/bin/python examples/stable_baselines3/train.py --seed 1
 
 Leaves SEED.zip, the learner, and SEED.json, what it came to, in the folder --out. README.md tells what it needs.
 """
 
 import argparse
 import json
+import math
 import statistics
 import time
 from pathlib import Path
@@ -18,7 +19,7 @@ from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.logger import configure
 from stable_baselines3.common.monitor import Monitor
 
-import limphome_lab.gym
+from limphome_lab.gym import ID
 from limphome_lab.runfolder import Episode
 from limphome_lab.show import learned
 
@@ -86,13 +87,14 @@ def summary(rows: list[Episode]) -> dict:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--minutes", type=float, default=10)
+    parser.add_argument("--steps", type=int, default=60_000, help="decisions to learn from; default 60000")
+    parser.add_argument("--minutes", type=float, default=math.inf, help="after which it ends in any case")
     parser.add_argument("--out", type=Path, default=Path("runs/stable_baselines3"))
     args = parser.parse_args()
     torch.set_num_threads(1)
     args.out.mkdir(parents=True, exist_ok=True)
 
-    env = gymnasium.make("limphome/LimpHome-v0", line=True, set=TASK)
+    env = gymnasium.make(ID, line=True, set=TASK)
     model = DQN(
         "MlpPolicy",
         Monitor(env),
@@ -113,7 +115,7 @@ def main() -> None:
     model.set_logger(configure(None, ["log"]))
     rows = Rows(60 * args.minutes)
     begun = time.monotonic()
-    model.learn(150_000, callback=rows)
+    model.learn(args.steps, callback=rows)
     seconds = time.monotonic() - begun
     result = {
         "seed": args.seed,

@@ -205,6 +205,16 @@ START_TEST(a_session_that_is_over_is_not_waited_for) {
 }
 END_TEST
 
+/* Then what was done in it is done again, which it is not after a fault. */
+START_TEST(a_plant_that_tells_that_it_begins_anew_has_no_fault) {
+    session_tracker t = begun();
+    session_over(&t, SECOND, SESSION_ENDED);
+    ck_assert_int_eq(other(&t, THIRD, 0, NOBODYS, 0.2), SESSION_RESET);
+    ck_assert_int_eq(t.broken, SESSION_ENDED);
+    ck_assert_int_eq(ours(&t, FOURTH, 0, LOCKSTEP, 0.3), SESSION_NEW);
+}
+END_TEST
+
 START_TEST(a_session_that_is_wrongly_told_to_be_over_goes_on) {
     session_tracker t = begun();
     session_over(&t, SECOND, SESSION_FAULTED);
@@ -275,6 +285,7 @@ int main(void) {
     tcase_add_test(cases, a_restarted_plant_is_taken_up_from_a_reset);
     tcase_add_test(cases, a_pause_of_ours_is_no_silence);
     tcase_add_test(cases, a_session_that_is_over_is_not_waited_for);
+    tcase_add_test(cases, a_plant_that_tells_that_it_begins_anew_has_no_fault);
     tcase_add_test(cases, a_session_that_is_wrongly_told_to_be_over_goes_on);
     tcase_add_loop_test(cases, a_bad_link_costs_time_only, 0, 10);
     tcase_add_test(cases, nonces_differ);

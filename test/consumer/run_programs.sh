@@ -23,6 +23,7 @@ for program in limphome-controller limphome-simulator; do
 done
 
 limphome-describe two_arm.urdf | grep '^robot two_arm: '
+limphome-arrays --version | grep "^limphome-arrays "
 
 # the default robot, then another by its name
 for robot in "" "--robot two_arm.urdf"; do

@@ -37,6 +37,7 @@ def prefix(tmp_path):
     (tmp_path / "prefix" / "bin").mkdir(parents=True)
     for name in ("controller", "simulator", "describe"):
         shutil.copy(paths.program(name), tmp_path / "prefix" / "bin")
+    shutil.copytree(paths.library("environment").parent, tmp_path / "prefix" / "lib" / "limphome")
     shutil.copytree(paths.CONFIG, tmp_path / "prefix" / "share" / "limphome" / "config")
     return tmp_path / "prefix"
 
@@ -53,7 +54,7 @@ def test_package_and_messages_can_be_imported(installed, tmp_path):
     assert result.stdout.startswith(f"True {installed.parent}"), result.stderr
 
 
-@pytest.mark.parametrize("name", ["train", "evaluate", "launch", "spy", "plot", "study", "diagnose", "robot"])
+@pytest.mark.parametrize("name", ["train", "evaluate", "launch", "spy", "plot", "study", "diagnose", "robot", "replay", "export"])
 def test_commands_go_by_their_own_names(installed, tmp_path, name):
     result = run(tmp_path, [installed / f"limphome-{name}", "--help"])
     assert result.returncode == 0, result.stderr
@@ -71,6 +72,18 @@ def test_training_and_evaluation_without_the_source_tree(installed, prefix, tmp_
     assert len(folder.read_episodes()) == 2
     assert (folder.figures / "fig8_reward.png").exists()
     assert run(tmp_path, [installed / "limphome-evaluate", "mine", "--episodes", 1], prefix / "bin").returncode == 0
+
+
+def test_environment_without_the_source_tree(installed, prefix, tmp_path):
+    code = """import gymnasium, limphome_lab.gym, importlib.resources as files
+env = gymnasium.make("limphome/LimpHome-v0", set={"episode.goal_distance_m": 3})
+print(env.reset(seed=1)[1]["goal_distance"], files.files("limphome_lab").joinpath("py.typed").is_file())
+env.close()"""
+    result = run(tmp_path, [installed / "python", "-c", code], prefix / "bin")
+    assert result.stdout == "3.0 True\n", result.stderr
+    (prefix / "lib" / "limphome" / "liblimphome_environment.so").unlink()
+    result = run(tmp_path, [installed / "python", "-c", code], prefix / "bin")
+    assert "liblimphome_environment.so is missing" in result.stderr
 
 
 def test_programs_that_are_nowhere_are_told(installed, tmp_path):

@@ -4,8 +4,9 @@ import subprocess
 
 import pytest
 
-from conftest import ROOT, SMOKE, run_script
+from conftest import ROOT, SMOKE, run_script, train
 from limphome_lab import paths
+from limphome_lab.runfolder import RunFolder
 
 # (name, text of the INI file, what the message must hold)
 BAD_FILES = [
@@ -96,11 +97,19 @@ def test_resume_of_what_is_not_a_run(tmp_path):
     assert result.returncode == 2 and "not a run folder" in result.stderr
 
 
-def test_resume_to_fewer_episodes_than_there_are(smoke_run):
-    before = smoke_run.config.read_bytes()
-    result = run_script("train", "--resume", smoke_run.path, "--episodes", 3, check=False)
-    assert result.returncode == 2 and "--episodes 3" in result.stderr and "30 already" in result.stderr
-    assert smoke_run.config.read_bytes() == before
+@pytest.fixture(scope="module")
+def short_run(tmp_path_factory):
+    """Run folder of 10 episodes: the programs may be those with sanitizers, which take their time."""
+    out = tmp_path_factory.mktemp("short") / "run"
+    train(out, "--episodes", 10, "--no-figures")
+    return RunFolder(out)
+
+
+def test_resume_to_fewer_episodes_than_there_are(short_run):
+    before = short_run.config.read_bytes()
+    result = run_script("train", "--resume", short_run.path, "--episodes", 3, check=False)
+    assert result.returncode == 2 and "--episodes 3" in result.stderr and "10 already" in result.stderr
+    assert short_run.config.read_bytes() == before
 
 
 @pytest.mark.parametrize(
@@ -261,8 +270,8 @@ def test_no_folder_is_left_behind(tmp_path, change, assignments, word, observe):
     expected="refused at once, naming scripts/launch --arm",
 )
 @pytest.mark.parametrize("name", ["train", "evaluate"])
-def test_real_time_without_an_operator(smoke_run, tmp_path, observe, name):
-    run = {"train": ("--config", SMOKE), "evaluate": (smoke_run.path,)}[name]
+def test_real_time_without_an_operator(short_run, tmp_path, observe, name):
+    run = {"train": ("--config", SMOKE), "evaluate": (short_run.path,)}[name]
     out = tmp_path / "run"
     result = run_script(name, *run, "--set", "simulator.pace=real_time", "--out", out, check=False)
     assert_refused(result, out, ["simulator.pace = real_time", "scripts/launch --arm"])

@@ -10,7 +10,7 @@ import pytest
 from bus import REAL_TIME, Bus, FakeRobot, controller, inside, simulator
 
 from limphome import arm_request_t, reset_request_t, status_t, velocity_command_t
-from limphome_lab.channels import ARM, COMMAND, DECISION, RESET, STATE, STATUS
+from limphome_lab.channels import ARM, COMMAND, DECISION, OPERATE, RESET, STATE, STATUS
 from limphome_lab.messages import TYPES, recorded
 from limphome_lab.runfolder import RunFolder
 
@@ -185,7 +185,7 @@ def monotonic_us():
     return time.monotonic_ns() // 1000
 
 
-FLOODS = [(STATE, "lockstep"), (COMMAND, "lockstep"), (RESET, "lockstep"), (STATUS, "lockstep"), (ARM, "real_time")]
+FLOODS = [(channel, "lockstep") for channel in (STATE, COMMAND, RESET, STATUS, OPERATE)] + [(ARM, "real_time")]
 
 
 @pytest.mark.parametrize("channel, pace", [*FLOODS, (STATE, "real_time"), (COMMAND, "real_time")])

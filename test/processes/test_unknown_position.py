@@ -14,7 +14,7 @@ from limphome_lab.runfolder import RunFolder
 
 DECISIONS = 40
 RIGHT_CRAWLER = 1
-STRAIGHT = ["task.path=ahead", "episode.goal_distance_m=50"]
+STRAIGHT = ["task.path=ahead", "episode.goal_distance_m=50", "safety.monitor=on"]
 OTHER_PORT = network.PORT + 1
 
 
@@ -80,13 +80,14 @@ class Sensors:
         state.position = [*self.place, 0.0]
 
 
-def drive(folder, run, sensed):
+def drive(folder, run, sensed, selection):
     """[decision][commands of the actuators], and where the robot then is: x, y [m], heading [rad]."""
     with Bus(folder) as bus:
         trained = RunFolder(run)
-        common = ["--config", trained.config, "--robot", trained.robot, *settings("safety.monitor=on", *STRAIGHT)]
+        common = ["--config", trained.config, "--robot", trained.robot, *settings(*STRAIGHT)]
         bus.start([paths.program("simulator"), *common, "--lcm-url", network.lcm_url()])
-        evaluate = ["--evaluate", trained.policy, "--out", bus.folder / "run"]
+        chosen = settings(f"evaluation.selection={selection}")
+        evaluate = [*chosen, "--evaluate", trained.policy, "--out", bus.folder / "run"]
         url = network.lcm_url(OTHER_PORT)
         bus.start([paths.program("controller"), *common, *evaluate, "--lcm-url", url])
         relay = Relay(getattr(Sensors(), sensed))
@@ -102,15 +103,17 @@ def trained(folder, config):
     return str(folder / "trained")
 
 
-def driven(folder, run, sensed):
+def driven(folder, run, sensed, selection="greedy"):
     (folder / sensed).mkdir()
-    return inside(drive, str(folder / sensed), run, sensed)
+    return inside(drive, str(folder / sensed), run, sensed, selection)
 
 
 def test_q_learning_drives_the_same_without_position_and_heading(tmp_path):
+    """By chance, so that it does more than the few things that it has learned: Q is the same, to the last bit."""
     run = trained(tmp_path, "paper.ini")
-    known, *others = (driven(tmp_path, run, sensed) for sensed in ("all_known", "position_unknown", "heading_unknown"))
-    assert len({tuple(velocities) for velocities in known[0]}) > 3  # it does something
+    ways = ("all_known", "position_unknown", "heading_unknown")
+    known, *others = (driven(tmp_path, run, way, "boltzmann") for way in ways)
+    assert len({tuple(velocities) for velocities in known[0]}) > 10
     assert others == [known, known]
 
 

@@ -4,6 +4,7 @@ import ctypes
 import functools
 import os
 from ctypes import POINTER, c_bool, c_char_p, c_double, c_float, c_int, c_int32, c_void_p
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,7 @@ MOST_INPUTS = 16  # above those of any robot
 FAILED, WAITING, GOES_ON, GOAL, TUMBLE, TIMEOUT, FAULT = range(-1, 6)  # enum environment_result
 OUTCOMES = {GOAL: "goal", TUMBLE: "tumble", TIMEOUT: "timeout", FAULT: "fault"}
 
-SIGNATURES = {
+SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "open": (c_void_p, [c_char_p, c_char_p, c_char_p, c_bool, c_char_p]),
     "close": (None, [c_void_p]),
     "value_names": (c_char_p, []),
@@ -33,12 +34,15 @@ class Library:
     """Its functions, without their prefix."""
 
     def __init__(self) -> None:
-        library = ctypes.CDLL(str(paths.library("environment")))
-        for name, (result, arguments) in SIGNATURES.items():
-            function = getattr(library, f"environment_{name}")
-            function.restype, function.argtypes = result, arguments
-            setattr(self, name, function)
+        self._library = ctypes.CDLL(str(paths.library("environment")))
         self.names = self.value_names().decode().rstrip(",").split(",")
+
+    def __getattr__(self, name: str) -> Any:
+        """The first time that it is asked for."""
+        function = getattr(self._library, f"environment_{name}")
+        function.restype, function.argtypes = SIGNATURES[name]
+        setattr(self, name, function)
+        return function
 
 
 @functools.cache
@@ -96,6 +100,6 @@ class Task:
         """Goes on where the robot stands, after an episode that has ended; False: it has to be put back."""
         return self._library.next(self._task, *self._places)
 
-    def values(self) -> dict[str, float]:
+    def values(self) -> dict[str, Any]:
         """What the newest state tells, by name."""
         return dict(zip(self._library.names, self._values.tolist(), strict=True))

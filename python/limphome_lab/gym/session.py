@@ -33,7 +33,7 @@ class Experiment:
         set: Mapping[str, Any] | None = None,
     ) -> None:
         self._place = Path(tempfile.mkdtemp(prefix="limphome-"))
-        self.close = weakref.finalize(self, _remove, self._place, os.getpid())
+        weakref.finalize(self, _remove, self._place, os.getpid())
         self.folder = runfolder.create(
             self._place / "experiment",
             config or paths.CONFIG / "default.ini",

@@ -53,10 +53,10 @@ class LimpHomeVector(VectorEnv[np.ndarray, np.ndarray, np.ndarray]):
         super().reset(seed=first)
         seeds = seed if isinstance(seed, Sequence) else [None if first is None else first + i for i in self._numbers()]
         options = options or {}
-        mask = options.get("reset_mask", np.ones(self.num_envs, bool))
-        for number in np.flatnonzero(mask):
+        numbers = np.flatnonzero(options.get("reset_mask", np.ones(self.num_envs))).tolist()
+        for number in numbers:
             self._sessions[number].begin(seeds[number], bool(options.get("put_back")))
-        observations, _, infos = self._take_in(np.flatnonzero(mask))
+        observations, _, infos = self._take_in(numbers)
         return observations, infos
 
     def step(self, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:

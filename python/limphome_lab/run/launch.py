@@ -32,8 +32,8 @@ def parse_arguments():
     parser.add_argument(
         "--driver",
         metavar="COMMAND",
-        help="the program that drives a real robot, in place of the simulator; it is given --config, --robot and "
-        "--lcm-url beside its own words",
+        help="the program that drives a real robot, in place of the simulator and given the same options beside its "
+        "own words (docs/real_robot.md)",
     )
     parser.add_argument("--arm", action="store_true", help="arm the robot right away, without a key")
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")

@@ -1,4 +1,4 @@
-"""Where the eye of a video is: as near as it can be from its side with all of the robot in the picture, all the time."""
+"""Where the eye of a video is: as near as it can be from its side with the robot in the picture all the time."""
 
 from dataclasses import dataclass
 
@@ -47,9 +47,8 @@ def fitted(direction, points, width_to_height):
     x, y, ahead = (points @ axes).T
     up = np.tan(FIELD_OF_VIEW / 2) * (1 - 2 * MARGIN)
     # |x - cx| <= across (ahead - ce) and the same of y: the planes of the picture's edges, moved until all lies within
-    depths, middles = zip(
-        *(_edges(values, ahead, slope) for values, slope in ((x, up * width_to_height), (y, up))), strict=True
-    )
+    edges = [_edges(values, ahead, slope) for values, slope in ((x, up * width_to_height), (y, up))]
+    depths, middles = zip(*edges, strict=True)
     at = np.array([*middles, min(depths)])
     return Eye(axes @ at, SO3.from_matrix(axes).wxyz)
 

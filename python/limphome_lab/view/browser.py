@@ -42,7 +42,8 @@ def needed(*names):
 
 
 class Browser:
-    """Shows a page of view/server.py until the context ends."""
+    """Shows a page of view/server.py until the context ends. What its `client` is told comes in order: a picture has
+    all that was put into client.scene before, which does not hold for the scene of the page."""
 
     def __init__(self, page):
         self._page = page
@@ -56,7 +57,7 @@ class Browser:
         options = [*OPTIONS, *without, f"--user-data-dir={folder / 'profile'}", self._page.url]
         self._child = Child("browser", [needed(*NAMES), *options], folder / "log")
         try:
-            self._client = self._connected()
+            self.client = self._connected()
         except BaseException:
             self.__exit__()
             raise
@@ -75,10 +76,9 @@ class Browser:
         raise Ending(f"the browser did not open the page:\n{self._child.log_tail()}")
 
     def picture(self, eye, width, height, field_of_view):
-        """[height x width x 3] what is seen from there of all that was put on the page before."""
-        self._page.flush()
+        """[height x width x 3] what is seen from there."""
         try:
-            drawn = self._client.get_render(
+            drawn = self.client.get_render(
                 height, width, wxyz=eye.wxyz, position=eye.position, fov=field_of_view, timeout=PICTURE_S
             )
         except TimeoutError as error:

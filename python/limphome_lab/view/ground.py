@@ -59,6 +59,15 @@ class Ground:
             self._add_tile(*tile)
         return bool(missing)
 
+    @property
+    def level(self):
+        """Whether it is a plane, whose grid `hide_grid` hides."""
+        return self.command is None
+
+    def hide_grid(self):
+        if self.level:
+            self._grid.visible = False
+
     def height(self, x, y):
         """[m] of what is put up; 0 elsewhere."""
         tile = int(np.floor(x / TILE)), int(np.floor(y / TILE))
@@ -77,7 +86,7 @@ class Ground:
             color=FIRM,
             cast_shadow=False,
         )
-        self.scene.add_grid(
+        self._grid = self.scene.add_grid(
             f"/{self.name}/ground/grid",
             infinite_grid=True,
             cell_size=0.5,

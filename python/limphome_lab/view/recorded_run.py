@@ -12,7 +12,7 @@ LANE = 1.7  # from one robot to the next, in reaches of the arm
 
 
 class RecordedRun:
-    """`scene`: of a page; `lane`: how far to the right the run is shown [m]; `told`: how it is called there, if at all."""
+    """`scene`: of a page; `lane`: how far to the right it is shown [m]; `told`: how it is called there, if at all."""
 
     def __init__(self, scene, folder, name="robot", lane=0.0, told=None):
         self.folder = folder
@@ -25,8 +25,8 @@ class RecordedRun:
             scene.add_label(f"/{name}_name", told, position=self.lane + (0, -1.5, 0))
         self.track = None
 
-    def take(self, number):
-        """Shows that episode from its begin on."""
+    def take(self, number=None):
+        """Shows that episode, None: the last that ended, from its begin on."""
         self.track = track = self.recording.episode(number)
         begin = track.states[0]
         direction = quaternion.heading(begin.orientation)
@@ -43,7 +43,8 @@ class RecordedRun:
         """At a time from the episode's begin [s]."""
         frame = self.track.at(time)
         self.ground.show_around(frame.position)
-        self.scene.show(frame, self.track.trail(time))
+        trail = [np.array([x, y, self.ground.height(x, y)]) for x, y, _ in self.track.trail(time)]
+        self.scene.show(frame, trail)
 
     def place(self, time):
         """[3] of the body in the page, at a time, level with the ground."""

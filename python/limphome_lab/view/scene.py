@@ -32,7 +32,7 @@ MOST_CORNERS = 24  # of the support polygon, as in ground_truth_t
 GOAL_PIECES = 20  # that follow the ground
 GLASS = 0.35  # opacity
 
-LAYERS = ("trail", "goal line", "support polygon", "centre of mass", "contact forces")
+LAYERS = ("trail", "goal line", "support polygon", "centre of mass", "contact forces", "labels")
 GRAVITY = 9.81  # [m/s^2]
 
 
@@ -167,8 +167,9 @@ class RobotScene:
                 handle.color = rgb(style.RED if failed else colour)
             if failed and actuator not in self._labels:
                 self._labels[actuator] = self._add_label(actuator)
+                self._layers["labels"].append(self._labels[actuator])
             if actuator in self._labels:
-                self._labels[actuator].visible = failed
+                self._labels[actuator].visible = failed and self.shown["labels"]
 
     def _add_label(self, actuator):
         crawler = actuator < len(self.robot.crawlers)
@@ -199,7 +200,7 @@ class RobotScene:
         foot = add.add_cylinder(self._path("here/foot"), radius=0.05, height=0.01, color=RIM)
         forces = add.add_arrows(self._path("here/forces"), nothing, FORCE, shaft_radius=0.018, head_radius=0.045)
         self._layers = dict(
-            zip(LAYERS, ([trail], [self._goal], [area, edge], [ball, plumb, foot], [forces]), strict=True)
+            zip(LAYERS, ([trail], [self._goal], [area, edge], [ball, plumb, foot], [forces], []), strict=True)
         )
 
     def _ground_level(self):

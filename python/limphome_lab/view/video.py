@@ -2,6 +2,7 @@
 
 import contextlib
 import subprocess
+import sys
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
@@ -9,12 +10,15 @@ from PIL import Image, ImageDraw, ImageFont
 from limphome_lab import files
 from limphome_lab.ending import Ending, InputError
 from limphome_lab.show.share import Share
-from limphome_lab.view import angles
+from limphome_lab.view import angles, stage
 from limphome_lab.view.browser import Browser, needed
+from limphome_lab.view.recorded_run import lanes
+from limphome_lab.view.server import Page
 
 HOLD_S = 1.0  # of the video that its last picture stays
 SAMPLE_S = 0.1  # between the moments for which the robot must be in the picture
 SMOOTH_S = 1.0  # over which the eye that follows evens out how the robot moves
+LINES_REACH = 10.0  # [m] of the ground's lines round the path
 CAPTION_HEIGHT = 0.07  # of the picture's
 CAPTION_COLOUR = (34, 34, 34)
 FORMATS = {  # suffix: (pictures a second, options of ffmpeg)
@@ -40,29 +44,44 @@ def check(file):
     return suffix
 
 
-def write(page, runs, file, names, size, speed):
-    """Draws what the RecordedRuns show into `file`: a picture from each of the angles `names`, side by side, each of
-    `size` (width, height); `speed`: the plant's time to the video's."""
+def write(folders, number, file, names, size, speed):
+    """Draws episode `number`, None: the last, of each run folder, side by side, into `file`: a picture from each of the
+    angles `names`, side by side, each of `size` (width, height); `speed`: the plant's time to the video's."""
     rate, options = FORMATS[check(file)]
-    duration = max(run.track.duration for run in runs)
-    times = np.arange(0, duration + speed * HOLD_S, speed / rate)
-    eyes = [eyes_of(runs, name, times, size[0] / size[1]) for name in names]
     with contextlib.ExitStack() as stack:
-        for run in runs:
-            run.scene.set_shown("support polygon", False)
+        print("opening the page in a browser without a window", file=sys.stderr, flush=True)
+        page = Page("limphome")
+        stack.callback(page.stop)
         browser = stack.enter_context(Browser(page))
+        scene = browser.client.scene
+        runs = lanes(scene, folders)
+        for run in runs:
+            run.take(number)
+        prepare(scene, runs)
+        times = np.arange(0, max(run.track.duration for run in runs) + speed * HOLD_S, speed / rate)
+        eyes = [eyes_of(runs, name, times, size[0] / size[1]) for name in names]
         fresh = stack.enter_context(files.replacing(file))
         encoder = stack.enter_context(Encoder(fresh, (size[0] * len(names), size[1]), rate, options))
+        browser.settle(eyes[0][0], *size, angles.FIELD_OF_VIEW)
         share = stack.enter_context(Share("drawing", len(times)))
         for index, time in enumerate(times):
             for run in runs:
                 run.show(time)
             views = [(each[index], *size, angles.FIELD_OF_VIEW) for each in eyes]
-            if index == 0:
-                browser.settle(*views[0])
             encoder.add(captioned(np.hstack([browser.picture(*view) for view in views]), caption(runs, time, speed)))
             share.update(index + 1)
         encoder.finish()
+
+
+def prepare(scene, runs):
+    """Leaves out what would only hide the robot, and makes the ground one that is seen alike from each angle."""
+    stage.light(scene)
+    for run in runs:
+        for layer in ("labels", "centre of mass"):
+            run.scene.set_shown(layer, False)
+        run.ground.hide_grid()
+    if all(run.ground.level for run in runs):
+        stage.add_lines(scene, LINES_REACH + max(np.abs(run.place(run.track.duration)).max() for run in runs))
 
 
 def eyes_of(runs, name, times, width_to_height):
@@ -97,7 +116,7 @@ def caption(runs, time, speed):
         else f"episode {run.track.number}"
         for run in runs
     )
-    pace = f" (×{speed:g})" if speed != 1 else ""
+    pace = f" (x{speed:g})" if speed != 1 else ""
     return f"{words}   {min(time, max(run.track.duration for run in runs)):.1f} s{pace}"
 
 
