@@ -28,7 +28,7 @@ OPTIONS = (
     "--enable-unsafe-swiftshader",
     "--window-size=320,240",  # small, as the page draws itself, too; it does not open in one much smaller
 )
-START_S = 60.0
+START_S = 180.0
 PICTURE_S = 300.0
 SETTLING = 40  # pictures at most until nothing changes any more
 
