@@ -11,6 +11,7 @@ from limphome_lab.paths import ROOT
 
 SCRIPTS = (
     "bench",
+    "clean",
     "compare",
     "diagnose",
     "evaluate",
