@@ -208,7 +208,8 @@ def experiment(name, runs, out):
 
 
 def section(learner, runs, out):
-    """What was written of the learner in results_LEARNER.md beside the page, figures of its first experiment, and all of them."""
+    """What was written of the learner in results_LEARNER.md beside the page, figures of its first experiment, and all
+    of them."""
     notes = out / f"results_{learner}.md"
     parts = [f"## {SECTIONS[learner]}"]
     if notes.exists():
@@ -244,8 +245,8 @@ def document(runs, out):
 def main():
     parser = command.parser(
         "results",
-        "Writes results.md, and its figures into images/, from the run folders of one or more experiments, each told of "
-        "by itself.",
+        "Writes results.md, and its figures into images/, from the run folders of one or more experiments, each told "
+        "of by itself.",
         "runs/paper-seed* --out results",
     )
     parser.add_argument("runs", metavar="RUN", nargs="+", help="run folder, folder of such, or folder of a study")

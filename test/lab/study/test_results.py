@@ -143,7 +143,7 @@ def test_run_that_has_not_finished_is_refused(tmp_path):
 
 def test_one_seed_does_not_count_twice(tmp_path, out):
     runs = [results.Run(make_run(tmp_path / name, 1)) for name in ("one", "other")]
-    with pytest.raises(InputError, match="seed 1 of paper would count twice: .*one and .*other"):
+    with pytest.raises(InputError, match=r"seed 1 of paper would count twice: .*one and .*other"):
         results.document(runs, out)
 
 
