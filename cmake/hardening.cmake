@@ -2,8 +2,8 @@
 # For what runs on an operating system; each option where the compiler has it.
 include(CheckCompilerFlag)
 set(hardening
-    -fPIC                         # code anywhere in memory, with -pie below, and in what programs load later;
-    -fno-semantic-interposition   # of that no function is replaced by another's of the same name
+    -fPIC                         # code anywhere in memory: in programs, with -pie below, and in what they load
+    -fvisibility=hidden           # where no function is replaced by another of the same name
     -fstack-protector-strong      # a changed return address is noticed
     -fstack-clash-protection      # the stack does not jump over its guard page
     -fcf-protection=full          # x86: indirect calls reach beginnings of functions alone

@@ -78,10 +78,11 @@ int32_t learned_episode(const learned *l) {
     return 0;
 }
 
+/* An index that is negative becomes one that lh_controller_init refuses, as others beyond the robot's. */
 static lh_controlled controlled_of(int32_t count, const int8_t *index) {
     lh_controlled controlled = {.count = 0};
     while (controlled.count < count && controlled.count < LH_MAX_ACTUATORS) {
-        controlled.index[controlled.count] = index[controlled.count];
+        controlled.index[controlled.count] = (uint8_t)index[controlled.count];
         controlled.count++;
     }
     return controlled;

@@ -15,6 +15,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#pragma GCC visibility push(default) /* what whoever loads the library finds in it */
+
 typedef struct environment environment;
 
 enum { ENVIRONMENT_ERROR_LENGTH = 512 };
@@ -65,4 +67,5 @@ bool environment_next(const environment *e, float *inputs, double *values);
 /* Why a call failed. */
 const char *environment_error(const environment *e);
 
+#pragma GCC visibility pop
 #endif

@@ -130,6 +130,7 @@ void CanRobot::reset(int64_t /*episode*/) {
 // Where something is lost the others stop at once; the loop learns of it at the end of its period.
 void CanRobot::command(const double velocity[limphome::max_actuators]) {
     listen();
+    reckon();
     const std::string what = lost_ ? "" : missing();
     if (!what.empty()) {
         std::fprintf(stderr, "%s: all motors stop\n", what.c_str());
@@ -175,12 +176,10 @@ void CanRobot::reckon() {
     place_[1] += ahead / std::max(obeying, 1) * std::sin(heading);
 }
 
-void CanRobot::sense(limphome::robot_state_t &state) {
-    listen();
-    reckon();
-    std::copy(place_, place_ + 2, state.position);
+void CanRobot::fill(limphome::robot_state_t &state) const {
     state.utime = std::llround(limphome::monotonic_now() * 1e6);
     state.num_actuators = num_actuators_;
+    std::copy(place_, place_ + 2, state.position);
     std::copy(imu_.orientation, imu_.orientation + 4, state.orientation);
     for (int a = 0; a < num_actuators_; a++) {
         const Motor &motor = motors_[static_cast<size_t>(a)];
@@ -188,6 +187,17 @@ void CanRobot::sense(limphome::robot_state_t &state) {
         state.actuator_velocity[a] = motor.velocity;
         state.actuator_effort[a] = motor.torque;
     }
+}
+
+void CanRobot::sense(limphome::robot_state_t &state) {
+    listen();
+    reckon();
+    fill(state);
+}
+
+bool CanRobot::exact(limphome::robot_state_t &state) const {
+    fill(state);
+    return true;
 }
 
 limphome::Health CanRobot::health(int actuator) const {

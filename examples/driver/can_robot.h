@@ -22,6 +22,8 @@ class CanRobot final : public limphome::Machine {
     // Called each 10 ms: also where the bus is heard.
     void command(const double velocity[limphome::max_actuators]) override;
     void sense(limphome::robot_state_t &state) override;
+    // The newest readings, for who looks on, 30 times a second.
+    bool exact(limphome::robot_state_t &state) const override;
     limphome::Health health(int actuator) const override;
     // A node was lost, or has no power: the emergency stop is pressed.
     bool diverged() const override { return lost_; }
@@ -47,6 +49,7 @@ class CanRobot final : public limphome::Machine {
     std::string missing() const;
     void await();
     void reckon();
+    void fill(limphome::robot_state_t &state) const;
 
     CanBus &bus_;
     const int num_actuators_;

@@ -1,6 +1,7 @@
 """A plant in real time on the messages alone, as in any language: driver.py --config FILE --lcm-url URL
 
 FILE is the resolved config.ini of a run folder, as scripts/launch --driver gives it. docs/protocol.md tells the rules.
+Left out: the status, by which a plant tells why it is not armed, and its counters.
 """
 
 import argparse
@@ -12,6 +13,7 @@ import time
 import lcm
 
 from limphome import arm_request_t, reset_request_t, robot_state_t, velocity_command_t
+from limphome_lab.channels import ARM, COMMAND, RESET, STATE
 
 SLICE_S, RAMP_S = 0.01, 0.5  # how often the motors are told; from the last command obeyed to rest
 
@@ -41,9 +43,13 @@ class Plant:
         self.late, self.silent = float(link["command_timeout_s"]), float(link["sender_timeout_s"])
         self.unkept, self.period = float(link["operator_timeout_s"]), float(config["episode"]["decision_period_s"])
         self.owner, self.owner_heard, self.armed, self.operator, self.operator_heard = 0, -math.inf, False, 0, 0.0
-        hear = {"COMMAND": (velocity_command_t, self.on_command), "RESET": (reset_request_t, self.on_reset)}
-        for name, (kind, handler) in {**hear, "ARM": (arm_request_t, self.on_arm)}.items():
-            self.bus.subscribe(f"LIMPHOME_{name}", lambda _, data, k=kind, h=handler: self.hear(k, data, h))
+        handlers = {
+            COMMAND: (velocity_command_t, self.on_command),
+            RESET: (reset_request_t, self.on_reset),
+            ARM: (arm_request_t, self.on_arm),
+        }
+        for channel, (kind, handler) in handlers.items():
+            self.bus.subscribe(channel, lambda _, data, k=kind, h=handler: self.hear(k, data, h))
         self.begin(0, 0)
 
     def hear(self, kind, data, handler):
@@ -76,7 +82,7 @@ class Plant:
         state.reset, state.armed, state.challenge = robot_state_t.WHERE_IT_IS, self.armed, self.challenge
         state.num_actuators, state.held, self.held = self.count, self.held, False
         self.robot.sense(state)
-        self.bus.publish("LIMPHOME_STATE", state.encode())
+        self.bus.publish(STATE, state.encode())
 
     def on_reset(self, request, now):
         if request.session == self.session and request.sender != 0 and request.nonce != 0:

@@ -11,11 +11,15 @@ from limphome_lab.paths import ROOT
 
 SCRIPTS = (
     "bench",
+    "clean",
+    "compare",
     "diagnose",
     "evaluate",
+    "export",
     "faults",
     "launch",
     "plot",
+    "replay",
     "results",
     "robot",
     "setup",
@@ -26,6 +30,7 @@ SCRIPTS = (
     "train",
     "validate",
     "verify",
+    "view",
 )
 TOOLS = ("bash", "dirname", "env", "readlink", "sed")  # all of a bare Debian that a help needs
 

@@ -54,7 +54,7 @@ def test_package_and_messages_can_be_imported(installed, tmp_path):
     assert result.stdout.startswith(f"True {installed.parent}"), result.stderr
 
 
-@pytest.mark.parametrize("name", ["train", "evaluate", "launch", "spy", "plot", "study", "diagnose", "robot"])
+@pytest.mark.parametrize("name", ["train", "evaluate", "launch", "spy", "plot", "study", "diagnose", "robot", "replay", "export"])
 def test_commands_go_by_their_own_names(installed, tmp_path, name):
     result = run(tmp_path, [installed / f"limphome-{name}", "--help"])
     assert result.returncode == 0, result.stderr

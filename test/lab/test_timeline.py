@@ -1,7 +1,6 @@
 """A recording along one line of time."""
 
 import logs
-
 from limphome_lab.channels import COMMAND, DECISION, EPISODE, STATE
 from limphome_lab.timeline import timeline
 

@@ -109,3 +109,10 @@ def launched(smoke_run, tmp_path, monkeypatch):
         process.send_signal(signal.SIGINT)
     process.communicate(timeout=TIME_LIMIT_S)
     shutil.rmtree(pair["run"])
+
+
+@pytest.fixture
+def browser():
+    import browsing
+
+    yield from browsing.browser()

@@ -51,6 +51,12 @@ def exported(trained):
     return folder
 
 
+@pytest.fixture(scope="session")
+def build(tmp_path_factory):
+    """For the board: of another policy only the example is compiled anew."""
+    return tmp_path_factory.mktemp("board")
+
+
 def floats(text, name):
     """Numbers of the array or member of that name."""
     start = text.index(f".{name} = {{") + len(f".{name} = {{")
@@ -86,7 +92,7 @@ def test_they_compile_without_a_word_and_are_taken_up(exported, tmp_path, compil
     assert subprocess.run([program]).returncode == 0
 
 
-def test_a_board_decides_as_the_controller_did(trained, exported, tmp_path):
+def test_a_board_decides_as_the_controller_did(trained, exported, build, tmp_path):
     if not (shutil.which("arm-none-eabi-gcc") and shutil.which("qemu-system-arm")):
         pytest.skip("there is no gcc-arm-none-eabi or qemu-system-arm")
     drive = tmp_path / "drive"
@@ -96,7 +102,6 @@ def test_a_board_decides_as_the_controller_did(trained, exported, tmp_path):
     states, velocities = driven(RunFolder(drive))
     assert len(states) > 20 and len({each.tobytes() for each in velocities}) > 1
     states.tofile(tmp_path / "states.bin")
-    build = tmp_path / "build"
     configure = ["cmake", "-S", ROOT / "examples/microcontroller", "-B", build, "-G", "Ninja"]
     configure += ["--toolchain", ROOT / "cmake/cortex-m4f.cmake", f"-DPOLICY={exported}", "-DCMAKE_BUILD_TYPE=Release"]
     subprocess.run([*configure, f"-DLIMPHOME_CAPACITIES={PAPERS_ROBOT}"], check=True, capture_output=True)

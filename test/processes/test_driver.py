@@ -16,7 +16,7 @@ from bus import REAL_TIME, Bus, controller, inside, settings
 from conftest import ROOT, TIME_LIMIT_S, start_script, wait_until
 from limphome import arm_request_t, status_t
 from limphome_lab import network, paths, registry
-from limphome_lab.channels import COMMAND, STATE
+from limphome_lab.channels import COMMAND, POSE, STATE
 from limphome_lab.messages import recorded
 from limphome_lab.recording import TornRecording
 from limphome_lab.runfolder import RunFolder, resolve_settings
@@ -154,17 +154,26 @@ def drive(folder, interface):
         seen["motors rest without a driver"] = not any(bus.state.actuator_velocity) and machine.travel(last) < 0.6
         seen["moves with another"] = machine.arm()
         seen["commands"] = bus.counts[COMMAND] > 0
+        seen["viewers see it move"] = bus.counts[POSE] > 2 * bus.counts[STATE]
         seen["driver's end"] = driver.end()
         seen["words"] = bus.programs[1 if interface == "slcan" else 0].words()
     return seen
 
 
-@pytest.mark.parametrize("interface", ["slcan", "socketcan"])
-def test_machine_on_a_can_bus(tmp_path, interface):
+TROUBLE = pytest.mark.fault(
+    "a machine on a CAN bus is stopped, breaks and falls silent",
+    injected="in turn: it is disarmed, a motor fails, the emergency stop, the motor controllers die, the driver dies",
+    expected="all motors come to rest each time, it is said why, and it moves on once a person has armed it again",
+)
+
+
+@pytest.mark.parametrize("interface", [pytest.param("slcan", marks=TROUBLE), "socketcan"])
+def test_machine_on_a_can_bus(tmp_path, observe, interface):
     if interface == "socketcan" and not has_vcan():
         pytest.skip("this kernel has no vcan")
     seen = inside(drive, str(tmp_path), interface)
     words = seen.pop("words")
+    observe("; ".join(what for what, good in seen.items() if good))
     assert "motor 1 has no power: all motors stop" in words
     assert "is silent: all motors stop" in words
     assert seen.pop("states before all nodes have spoken") == 0
@@ -256,8 +265,15 @@ def lose_the_bus(folder):
         return [code, driver.words().splitlines()[-1]]
 
 
-def test_driver_ends_where_its_adapter_is_gone(tmp_path):
-    assert inside(lose_the_bus, str(tmp_path)) == [1, "CAN adapter: Input/output error"]
+@pytest.mark.fault(
+    "the adapter of a driver is gone",
+    injected="its serial line is hung up",
+    expected="it ends with exit code 1 and says so",
+)
+def test_driver_ends_where_its_adapter_is_gone(tmp_path, observe):
+    ended = inside(lose_the_bus, str(tmp_path))
+    observe(str(ended))
+    assert ended == [1, "CAN adapter: Input/output error"]
 
 
 @pytest.mark.parametrize(

@@ -93,19 +93,19 @@ def text(found, told):
     if len(found) > 1:
         for each in found:
             lines += wrapped([_name(each)], f"{each['letter']}  ")
-    lines += ["", f"{'':<4}{'runs':>4} {'learned':>8} {'95 %':>10} {'n':>17} {'duration [s]':>18} {'beside [m]':>18}"]
+    lines += ["", f"{'':<3}{'runs':>4} {'learned':>7} {'95 %':>10} {'n':>16} {'duration [s]':>17} {'beside [m]':>17}"]
     for each in found:
         low, high = each["learned_share_95"]
         lines.append(
-            f"{each['letter']:<4}{each['runs']:>4} {each['learned']:>8} {f'{low:.0%}-{high:.0%}':>10} {_middle(each['quartiles_n'], '{:.0f}'):>17} "
-            f"{_middle(each['quartiles_duration_s'], '{:.1f}'):>18} "
-            f"{_middle(each['quartiles_lateral_error_m'], '{:.2f}'):>18}"
+            f"{each['letter']:<3}{each['runs']:>4} {each['learned']:>7} {f'{low:.0%}-{high:.0%}':>10}"
+            f" {_middle(each['quartiles_n'], '{:.0f}'):>16} {_middle(each['quartiles_duration_s'], '{:.3g}'):>17}"
+            f" {_middle(each['quartiles_lateral_error_m'], '{:.2f}'):>17}"
         )
     lines += wrapped(
         [f"medians (quartiles) over the seeds; duration and offset are those of the last {learned.LAST} episodes"]
     )
     for each in found:
-        lines += ["", f"{each['letter']:<4}seed  learned at  held  minutes  goals  duration  beside  reward  tumbles"]
+        lines += ["", f"{each['letter']:<3} seed  learned at  held  minutes  goals  duration  beside  reward  tumbles"]
         lines += [f"    {_seed_row(seed)}" for seed in each["seeds"]]
     return "\n".join(lines)
 
@@ -124,7 +124,7 @@ def wrapped(texts, before=""):
 
 def _middle(values, form):
     lower, median, upper = ("never" if value is None else form.format(value) for value in values)
-    return median if lower == upper else f"{median} ({lower} - {upper})"
+    return median if lower == upper else f"{median} ({lower}-{upper})"
 
 
 def _seed_row(seed):

@@ -1,21 +1,21 @@
-"""Command results: writes docs/results.md, and its figures, from run folders."""
+"""Command results: a page about the experiments that run folders belong to, and its figures."""
 
-import configparser
-import json
 import shutil
 import statistics
 import sys
 from itertools import groupby
+from pathlib import Path
 
 from limphome_lab import command, paths, runfolder
 from limphome_lab.ending import with_exit_code
-from limphome_lab.run.manifest import SHARES
+from limphome_lab.run.manifest import EVALUATION, SHARES
+from limphome_lab.show import experiments
 from limphome_lab.show.progress import clock
 from limphome_lab.show.summary import summarise
 
-DOCS = paths.ROOT / "docs"
 SECTIONS = {"q_learning": "The paper's method", "planner": "The planner"}  # by kind of learner
 STRETCH = 250  # episodes at the end of a run that its row tells of
+OWN_ROBOT = paths.CONFIG / "crawler.urdf"
 VARIED = {("learning", "seed"), ("learning", "episodes")}  # within one experiment
 WINDOW, GOALS, DURATION_S = 20, 19, 12  # of what counts as learned
 FIGURES = {
@@ -37,33 +37,46 @@ COLUMNS = (
 )
 
 
-class Run:
+class Run(experiments.Run):
+    """One that counts, with the name of its experiment."""
+
     def __init__(self, path):
-        self.folder = runfolder.existing(path, "episodes", "manifest", "figures")
-        self.manifest = json.loads(self.folder.manifest.read_text())
-        self.episodes = self.folder.read_episodes()
-        if self.manifest.get("result") != "finished":
+        super().__init__(path)
+        if not self.finished:
             raise runfolder.InputError(f"{path}: the run has not finished")
-        settings = self.folder.settings()
-        self.learner = settings.get("learner", "kind", fallback="q_learning")
-        self.name = ", ".join([self.manifest["config"], *deviations(settings, self.manifest["config"])])
-
-    @property
-    def seed(self):
-        return self.manifest["seed"]
+        if self.manifest.get("kind") == EVALUATION:
+            raise runfolder.InputError(f"{path}: is an evaluation; results are of trainings")
+        self.learner = self.settings.get("learner", "kind", fallback="q_learning")
+        self.name = ", ".join([self.manifest["config"], *deviations(self)])
 
 
-def deviations(settings, config):
+def deviations(run):
     """What was set otherwise than in config/CONFIG.ini (paper.ini where there is none): ["mode = free", ...]."""
-    file = paths.CONFIG / f"{config}.ini"
-    standard = configparser.ConfigParser()
-    standard.read_string(runfolder.resolve_settings(file if file.exists() else paths.CONFIG / "paper.ini", []))
-    return [
+    file = paths.CONFIG / f"{run.manifest['config']}.ini"
+    text = runfolder.resolve_settings(file if file.exists() else paths.CONFIG / "paper.ini", [])
+    standard = runfolder.parse_settings(text, file)
+    found = [
         f"{key} = {value}"
-        for section in settings.sections()
-        for key, value in settings[section].items()
+        for section in run.settings.sections()
+        for key, value in run.settings[section].items()
         if (section, key) not in VARIED and standard.get(section, key, fallback=None) != value
     ]
+    robot, text = run.facts["robot"]
+    return found if text == OWN_ROBOT.read_text() else [*found, f"robot = {robot}"]
+
+
+def check_apart(runs):
+    """InputError where two runs would be told of as one, or one seed would count twice."""
+    for _, same in groupby(runs, key=lambda run: (run.learner, run.name)):
+        same = list(same)
+        seeds = [run.seed for run in same]
+        twice = next((run for run in same if seeds.count(run.seed) > 1), None)
+        if twice is not None:
+            both = " and ".join(str(run.folder.path) for run in same if run.seed == twice.seed)
+            raise runfolder.InputError(f"seed {twice.seed} of {twice.name} would count twice: {both}")
+        differing = [key for key in same[0].facts if len({run.facts.get(key) for run in same}) > 1]
+        if set(differing) - {"learning.episodes"}:
+            raise runfolder.InputError(f"runs of {same[0].name} differ in {', '.join(differing)}: not one experiment")
 
 
 def learned_after(episodes):
@@ -148,10 +161,14 @@ def file_name(name):
     return name.replace(", ", "-").replace(" = ", "-")
 
 
-def copy_figures(run):
-    """Markdown that shows the figures of one run, copied to docs/images/."""
-    images = DOCS / "images"
+def copy_figures(run, out):
+    """Markdown that shows the figures of one run, copied to images/; a study draws none, so they are drawn here."""
+    images = out / "images"
     images.mkdir(parents=True, exist_ok=True)
+    if not all((run.folder.figures / f"{figure}.png").exists() for figure in FIGURES):
+        from limphome_lab.show.figures import draw_all  # matplotlib takes most of a second to load
+
+        draw_all(run.folder)
     shown = []
     for figure, caption in FIGURES.items():
         name = f"{file_name(run.name)}-seed{run.seed}-{figure}.png"
@@ -160,23 +177,23 @@ def copy_figures(run):
     return "\n\n".join(shown)
 
 
-def draw_seeds(name, runs):
+def draw_seeds(name, runs, out):
     """Markdown that shows every episode of every seed."""
     from limphome_lab.show.figures import seeds, style  # matplotlib takes most of a second to load
 
     image = f"{file_name(name)}-seeds.png"
-    (DOCS / "images").mkdir(parents=True, exist_ok=True)
+    (out / "images").mkdir(parents=True, exist_ok=True)
     figure = seeds.draw(
         {run.seed: run.episodes for run in runs}, {run.seed: learned_after(run.episodes) for run in runs}
     )
-    style.save(figure, DOCS / "images" / image)
+    style.save(figure, out / "images" / image)
     return (
         f"![Every episode of every seed](images/{image})\n\n*Every episode of every seed, both axes logarithmic; the "
         f"green line is where it had learned; {name}.*"
     )
 
 
-def experiment(name, runs):
+def experiment(name, runs, out):
     counts = sorted({stretch(run.episodes) for run in runs})
     parts = [
         f"### {name}",
@@ -184,43 +201,59 @@ def experiment(name, runs):
         f"The last {' or '.join(map(str, counts))} of {span([len(run.episodes) for run in runs], str)} episodes of "
         "each run; duration, lateral error and change of heading (their magnitudes) and reward are medians.",
         markdown_table(COLUMNS, map(row, runs)),
-        draw_seeds(name, runs),
+        draw_seeds(name, runs, out),
     ]
     return "\n\n".join([*parts, cost(runs)])
 
 
-def section(learner, runs):
-    """What was written of the learner in docs/results_LEARNER.md, figures of its first experiment, and all of them."""
-    notes = DOCS / f"results_{learner}.md"
+def section(learner, runs, out):
+    """What was written of the learner in results_LEARNER.md beside the page, figures of its first experiment, and all of them."""
+    notes = out / f"results_{learner}.md"
     parts = [f"## {SECTIONS[learner]}"]
     if notes.exists():
         parts.append(notes.read_text().strip())
-    experiments = [list(group) for _, group in groupby(runs, key=lambda run: run.name)]
-    parts.append(copy_figures(best(experiments[0])))
-    parts += [experiment(group[0].name, group) for group in experiments]
+    groups = [list(group) for _, group in groupby(runs, key=lambda run: run.name)]
+    parts.append(copy_figures(best(groups[0]), out))
+    parts += [experiment(group[0].name, group, out) for group in groups]
     return "\n\n".join(parts)
 
 
-def document(runs):
+def document(runs, out):
+    """The page; its figures are left in `out`."""
     order = list(SECTIONS)
     runs = sorted(runs, key=lambda run: (order.index(run.learner), run.name, run.seed))
+    check_apart(runs)
+    revisions = sorted({(run.manifest["revision"]["commit"] or "unknown")[:10] for run in runs})
     parts = [
         "# Results",
-        "Written by `scripts/results` from run folders that `scripts/train` left. *Learned* after n episodes: of the "
+        f"Written by `scripts/results` from {len(runs)} run folders that `scripts/train` left, by revision "
+        f"{', '.join(f'`{each}`' for each in revisions)}. *Learned* after n episodes: of the "
         f"{WINDOW} episodes that follow at least {GOALS} reach the goal, in {DURATION_S} s or less at the median; n is "
         "the least such number.",
     ]
-    parts += [section(learner, list(group)) for learner, group in groupby(runs, key=lambda run: run.learner)]
+    parts += [section(learner, list(group), out) for learner, group in groupby(runs, key=lambda run: run.learner)]
     return "\n\n".join(parts) + "\n"
 
 
 @with_exit_code
 def main():
-    parser = command.parser("results", "Writes docs/results.md from run folders.", "runs/paper-seed*")
-    parser.add_argument("runs", metavar="RUN", nargs="+", help="run folder that has finished")
+    parser = command.parser(
+        "results",
+        "Writes results.md, and its figures into images/, from the run folders of one or more experiments, each told of "
+        "by itself.",
+        "runs/paper-seed* --out results",
+    )
+    parser.add_argument("runs", metavar="RUN", nargs="+", help="run folder, folder of such, or folder of a study")
+    parser.add_argument("--out", metavar="DIR", default="results", help="folder for the page; default results")
     args = parser.parse_args()
-    (DOCS / "results.md").write_text(document([Run(path) for path in args.runs]))
-    print(paths.shown(DOCS / "results.md"))
+    found, passed_over = experiments.find(args.runs)
+    for each in passed_over:
+        print(each, file=sys.stderr)
+    out = Path(args.out)
+    text = document([Run(run.folder.path) for run in found], out)
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "results.md").write_text(text)
+    print(paths.shown(out / "results.md"))
     return 0
 
 

@@ -13,7 +13,7 @@ from limphome_lab.view.recorded_run import lanes
 
 FRAME_S = 1 / 30
 TEXT_S = 0.1  # between two times that text is brought up to date
-SPEEDS = {"¼×": 0.25, "½×": 0.5, "1×": 1.0, "2×": 2.0, "4×": 4.0, "10×": 10.0}
+SPEEDS = {"1/4 x": 0.25, "1/2 x": 0.5, "1 x": 1.0, "2 x": 2.0, "4 x": 4.0, "10 x": 10.0}
 TERMS = ("motion", "goal", "stability", "tumble")  # of the reward
 PANEL_WIDTH = 380  # [px]
 STEP_S = 0.01  # of the slider
@@ -109,7 +109,7 @@ class Player:
             self._told = now
             self._slider.value = self.time
             self._button.label = "Pause  (P)" if self.playing else "Play  (P)"
-            self._pace.content = f"{self.time:.2f} s of {self.duration:.2f} s, **{self.speed:g} × real time**"
+            self._pace.content = f"{self.time:.2f} s of {self.duration:.2f} s, **{self.speed:g} x real time**"
             for panel in self._panels:
                 panel.show(self.time)
 

@@ -45,8 +45,7 @@ class Recording:
         return [entry.number for entry in self.entries]
 
     def episode(self, number=None):
-        """The Track of an episode, None: the last that ended, if one has; InputError where the recording has none of that
-        number."""
+        """The Track of an episode, None: the last that ended, if one has; InputError where that number is not there."""
         if number is None:
             number = next((entry.number for entry in reversed(self.entries) if entry.ending), self.numbers[-1])
         found = [entry for entry in self.entries if entry.number == number]
@@ -158,8 +157,11 @@ class Track:
         return [*self._positions[: self._place(time)[0] + 1], self.at(time).position]
 
     def decision(self, time):
-        """The decision_t under way at a time, None where it is not recorded."""
-        return self.decisions[self._place(time)[0]]
+        """The decision_t of this episode under way at a time, None where it is not recorded. That on the last state may
+        be the next episode's first."""
+        index = self._place(time)[0]
+        decision = self.decisions[index]
+        return self.decisions[index - 1] if decision and decision.episode != self.number else decision
 
     def _place(self, time):
         """(index of the state before, share of the way to the next)"""

@@ -4,7 +4,7 @@ import numpy as np
 
 from limphome_lab.view.ground import LINE
 
-BRIGHTNESS = 0.45  # of the light from all around; little enough that shadows tell what is lifted
+BRIGHTNESS = 0.6  # of the light from all around; little enough that shadows tell what is lifted
 LINES_EVERY = 1.0  # [m]
 LINE_THICKNESS = 0.012  # [m]
 ABOVE_GROUND = 0.001  # [m]

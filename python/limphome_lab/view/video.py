@@ -2,6 +2,7 @@
 
 import contextlib
 import subprocess
+import sys
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
@@ -48,6 +49,7 @@ def write(folders, number, file, names, size, speed):
     angles `names`, side by side, each of `size` (width, height); `speed`: the plant's time to the video's."""
     rate, options = FORMATS[check(file)]
     with contextlib.ExitStack() as stack:
+        print("opening the page in a browser without a window", file=sys.stderr, flush=True)
         page = Page("limphome")
         stack.callback(page.stop)
         browser = stack.enter_context(Browser(page))
@@ -60,13 +62,12 @@ def write(folders, number, file, names, size, speed):
         eyes = [eyes_of(runs, name, times, size[0] / size[1]) for name in names]
         fresh = stack.enter_context(files.replacing(file))
         encoder = stack.enter_context(Encoder(fresh, (size[0] * len(names), size[1]), rate, options))
+        browser.settle(eyes[0][0], *size, angles.FIELD_OF_VIEW)
         share = stack.enter_context(Share("drawing", len(times)))
         for index, time in enumerate(times):
             for run in runs:
                 run.show(time)
             views = [(each[index], *size, angles.FIELD_OF_VIEW) for each in eyes]
-            if index == 0:
-                browser.settle(*views[0])
             encoder.add(captioned(np.hstack([browser.picture(*view) for view in views]), caption(runs, time, speed)))
             share.update(index + 1)
         encoder.finish()

@@ -28,8 +28,8 @@ def make_run(path, seed=1, **changes):
     (path / "figures").mkdir(parents=True)
     for name in results.FIGURES:
         (path / "figures" / f"{name}.png").write_bytes(b"image of seed %d" % seed)
-    for name in ("config.ini", "robot.urdf"):
-        (path / name).write_text("")
+    (path / "config.ini").write_text(f"[learning]\nseed = {seed}\n")
+    (path / "robot.urdf").write_text(results.OWN_ROBOT.read_text())
     rows = [
         f"{n},{'tumble' if n <= 4 else 'goal'},{200 - n},{100 - n},{n - 20},0,0,0,0,{-1 / n},0,1" for n in range(1, 41)
     ]
@@ -39,14 +39,13 @@ def make_run(path, seed=1, **changes):
     return path
 
 
-@pytest.fixture(autouse=True)
-def docs(tmp_path, monkeypatch):
-    monkeypatch.setattr(results, "DOCS", tmp_path / "docs")
-    return tmp_path / "docs"
+@pytest.fixture
+def out(tmp_path):
+    return tmp_path / "out"
 
 
-def test_row_tells_how_it_ended(tmp_path):
-    text = results.document([results.Run(make_run(tmp_path / "run"))])
+def test_row_tells_how_it_ended(tmp_path, out):
+    text = results.document([results.Run(make_run(tmp_path / "run"))], out)
     # medians over episodes 37 to 40; in the first window of 20 with 19 goals, 4 to 23, they take 86.5 s at the median
     assert "| 1 | never |  | 100 | 61.5 | 0.03 | 0.00 | 18.50 | 4 |" in text
     assert "last 4 of 40 episodes" in text
@@ -55,12 +54,12 @@ def test_row_tells_how_it_ended(tmp_path):
     assert "Some CPU, 4 cores, Debian; revision `aaaaaaaaaa` with changes." in text
 
 
-def test_learned_is_told_in_episodes_and_decisions(tmp_path):
+def test_learned_is_told_in_episodes_and_decisions(tmp_path, out):
     run = make_run(tmp_path / "run")
     rows = (run / "episodes.csv").read_text().splitlines()
     quick = [",".join([*row.split(",")[:3], "9", *row.split(",")[4:]]) for row in rows[7:]]
     (run / "episodes.csv").write_text("\n".join([*rows[:7], *quick]) + "\n")
-    text = results.document([results.Run(run)])
+    text = results.document([results.Run(run)], out)
     # of episodes 4 to 23 the first is no goal; those of 1 to 3 have 199, 198 and 197 steps
     assert "| 1 | 3 | 594 | 100 | 9.0 |" in text
     assert "**Learned on 1 of 1 seeds, after 3 episodes, 3 at the median.**" in text
@@ -77,19 +76,19 @@ def test_too_few_episodes_to_have_learned():
     assert results.learned_after([]) is None
 
 
-def test_run_that_is_too_short_to_have_learned_is_not_told_to_have_failed(tmp_path):
+def test_run_that_is_too_short_to_have_learned_is_not_told_to_have_failed(tmp_path, out):
     run = make_run(tmp_path / "run")
     rows = (run / "episodes.csv").read_text().splitlines()
     (run / "episodes.csv").write_text("\n".join(rows[:20]) + "\n")
-    text = results.document([results.Run(run)])
+    text = results.document([results.Run(run)], out)
     assert "**19 episodes are too few to have learned by.**" in text and "never" not in text
 
 
-def test_runs_are_grouped_by_experiment_and_ordered_by_seed(tmp_path):
+def test_runs_are_grouped_by_experiment_and_ordered_by_seed(tmp_path, out):
     runs = [make_run(tmp_path / "b", 2), make_run(tmp_path / "a", 1), make_run(tmp_path / "c", 1, config="other")]
     right = make_run(tmp_path / "d", 1)
-    (right / "config.ini").write_text("[learning]\nseed = 4\n[failure]\nactuator = right_crawler\nmode = locked\n")
-    text = results.document([results.Run(path) for path in [*runs, right]])
+    (right / "config.ini").write_text("[learning]\nseed = 1\n[failure]\nactuator = right_crawler\nmode = locked\n")
+    text = results.document([results.Run(path) for path in [*runs, right]], out)
     headings = [line for line in text.splitlines() if line.startswith("#")]
     assert headings == [
         "# Results",
@@ -102,23 +101,23 @@ def test_runs_are_grouped_by_experiment_and_ordered_by_seed(tmp_path):
     assert "](images/paper-actuator-right_crawler-seeds.png)" in text
 
 
-def test_learners_have_sections_with_what_was_written_of_them(tmp_path, docs):
-    docs.mkdir()
-    (docs / "results_q_learning.md").write_text("What we make of it.\n")
+def test_learners_have_sections_with_what_was_written_of_them(tmp_path, out):
+    out.mkdir()
+    (out / "results_q_learning.md").write_text("What we make of it.\n")
     planned = make_run(tmp_path / "planned", config="mine")
-    (planned / "config.ini").write_text("[learner]\nkind = planner\n")
-    text = results.document([results.Run(planned), results.Run(make_run(tmp_path / "run"))])
+    (planned / "config.ini").write_text("[learning]\nseed = 1\n[learner]\nkind = planner\n")
+    text = results.document([results.Run(planned), results.Run(make_run(tmp_path / "run"))], out)
     assert "## The paper's method\n\nWhat we make of it.\n\n" in text
     assert text.index("### paper\n") < text.index("## The planner") < text.index("### mine, kind = planner")
 
 
-def test_figures_are_copied_beside_the_page(tmp_path, docs):
-    text = results.document([results.Run(make_run(tmp_path / "run", 7))])
+def test_figures_are_copied_beside_the_page(tmp_path, out):
+    text = results.document([results.Run(make_run(tmp_path / "run", 7))], out)
     assert "](images/paper-seed7-fig8_reward.png)" in text
-    assert (docs / "images" / "paper-seed7-fig8_reward.png").read_bytes() == b"image of seed 7"
+    assert (out / "images" / "paper-seed7-fig8_reward.png").read_bytes() == b"image of seed 7"
 
 
-def test_figures_are_those_of_the_seed_that_ended_best(tmp_path, docs):
+def test_figures_are_those_of_the_seed_that_ended_best(tmp_path, out):
     poor, good = make_run(tmp_path / "poor", 1), make_run(tmp_path / "good", 2)
     rows = (poor / "episodes.csv").read_text().splitlines()
     (poor / "episodes.csv").write_text(
@@ -127,12 +126,34 @@ def test_figures_are_those_of_the_seed_that_ended_best(tmp_path, docs):
         )
         + "\n"
     )
-    text = results.document([results.Run(poor), results.Run(good)])
+    text = results.document([results.Run(poor), results.Run(good)], out)
     assert "](images/paper-seed2-fig8_reward.png)" in text
     assert "](images/paper-seeds.png)" in text
-    assert (docs / "images" / "paper-seeds.png").stat().st_size > 10_000
+    assert (out / "images" / "paper-seeds.png").stat().st_size > 10_000
 
 
 def test_run_that_has_not_finished_is_refused(tmp_path):
     with pytest.raises(InputError, match="not finished"):
         results.Run(make_run(tmp_path / "run", result="interrupted"))
+
+
+def test_one_seed_does_not_count_twice(tmp_path, out):
+    runs = [results.Run(make_run(tmp_path / name, 1)) for name in ("one", "other")]
+    with pytest.raises(InputError, match="seed 1 of paper would count twice: .*one and .*other"):
+        results.document(runs, out)
+
+
+def test_another_robot_is_another_experiment(tmp_path, out):
+    other = make_run(tmp_path / "other", 2)
+    (other / "robot.urdf").write_text(results.OWN_ROBOT.with_name("two_arm.urdf").read_text())
+    text = results.document([results.Run(make_run(tmp_path / "one", 1)), results.Run(other)], out)
+    assert "### paper\n" in text and "### paper, robot = two_arm" in text
+
+
+def test_the_page_tells_its_revision(tmp_path, out):
+    assert "by revision `aaaaaaaaaa`" in results.document([results.Run(make_run(tmp_path / "run"))], out)
+
+
+def test_an_evaluation_is_no_result(tmp_path):
+    with pytest.raises(InputError, match="is an evaluation"):
+        results.Run(make_run(tmp_path / "run", kind="evaluation"))

@@ -1,4 +1,7 @@
-"""The figures of a run, one per file: the paper's Figs. 7, 8 and 9, how learning went, and a fixed path."""
+"""The figures of a run, one per file: the paper's Figs. 7, 8 and 9, how learning went, and a fixed path. more.py has
+those that are drawn on demand."""
+
+from pathlib import Path
 
 from limphome_lab.messages import episode_states, last_session
 from limphome_lab.show.figures import learning, motion, path, reward, style, trajectories
@@ -13,17 +16,28 @@ def is_level(ground):
 
 
 def draw_all(folder):
-    """Draws every figure of a run into its figures/ folder; returns the files."""
+    """Draws every figure that a training leaves into the run's figures/ folder; returns the files."""
+    return save(figures(folder), folder.figures)
+
+
+def figures(folder):
+    """{name: figure} of them."""
     episodes = folder.read_episodes()
     recorded = episode_states(folder.messages, {FIRST, LAST})
     settings = folder.settings()
-    figures = {
+    drawn = {
         "fig7_trajectories": trajectories.draw(recorded[FIRST], recorded[LAST]),
         "fig8_reward": reward.draw(episodes),
         "fig9_motion": motion.draw(folder.robot, *recorded[LAST], level=is_level(settings["ground"])),
         "fig_learning": learning.draw(episodes),
     }
     if settings["task"]["path"] != "rolling":
-        figures["fig_path"] = path.draw(settings["task"]["path"], *last_session(folder.messages))
-    folder.figures.mkdir(exist_ok=True)
-    return [style.save(figure, folder.figures / f"{name}.png") for name, figure in figures.items()]
+        drawn["fig_path"] = path.draw(settings["task"]["path"], *last_session(folder.messages))
+    return drawn
+
+
+def save(drawn, out, paper=False):
+    """Saves {name: figure} into a folder, for a paper as well; returns the files."""
+    out = Path(out)
+    out.mkdir(parents=True, exist_ok=True)
+    return [file for name, figure in drawn.items() for file in style.save_all(figure, out / f"{name}.png", paper)]

@@ -3,16 +3,15 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from limphome_lab.robot import read
 from limphome_lab.show.figures import style
 
 STRETCHES = 12  # of the run, at most
 LEVELS = (("reverse", style.ORANGE), ("still", "#d8dde3"), ("forward", style.BLUE))  # digits 0, 1, 2 of an action
 
 
-def draw(file, controlled, decisions):
-    """`file`: of the robot; `controlled`: indices of actuators; `decisions`: of the whole run, or evenly chosen."""
-    names = [read(file).actuators[index].replace("_", " ") for index in controlled]
+def draw(robot, controlled, decisions):
+    """`robot`: as limphome_lab.robot reads it; `controlled`: indices of actuators; `decisions`: of the whole run, or evenly chosen."""
+    names = [robot.actuators[index].replace("_", " ") for index in controlled]
     episode = np.array([decision.episode for decision in decisions])
     action = np.array([decision.action for decision in decisions])
     edges = np.unique(np.linspace(episode.min(), episode.max() + 1, STRETCHES + 1).round().astype(int))

@@ -14,17 +14,16 @@ def draw(episodes):
     _panel(lateral, number, [abs(episode.lateral_error_m) for episode in episodes], "|lateral error| [m]")
     lateral.set_ylim(bottom=0)
     reached = [100.0 * (episode.outcome == "goal") for episode in episodes]
-    goals.plot(number, style.running(reached, np.mean), color=style.GREEN, linewidth=2)
-    goals.set(ylabel="reached the goal [%]", xlabel="episode", ylim=(-3, 103), xlim=(0, number[-1] + 1))
-    duration.set_title(
-        f"Single episodes, and their running median of {style.MEDIAN_WINDOW}; "
-        f"goals as a running mean of {style.MEDIAN_WINDOW}"
-    )
+    window = style.window(len(episodes))
+    goals.plot(number, style.running(reached, np.mean, window), color=style.GREEN, linewidth=2)
+    goals.set(ylabel="reached the goal [%]", xlabel="episode", ylim=(-3, 103), xlim=(number[0] - 1, number[-1] + 1))
+    goals.xaxis.set_major_locator(plt.MaxNLocator(integer=True))
+    duration.set_title(f"Single episodes, and their running median of {window}; goals as a running mean of {window}")
     return figure
 
 
 def _panel(axes, number, values, label):
     size = 14 if len(number) < 200 else 5
     axes.scatter(number, values, s=size, color=style.FAINT, linewidths=0)
-    axes.plot(number, style.running(values), color=style.BLUE, linewidth=2)
+    axes.plot(number, style.running(values, window=style.window(len(number))), color=style.BLUE, linewidth=2)
     axes.set_ylabel(label)

@@ -23,15 +23,17 @@ def draw(episodes):
             linewidths=1,
             label="one episode, tumbled",
         )
-    axes.plot(
-        number, style.running(reward), color=style.BLUE, linewidth=2, label=f"running median of {style.MEDIAN_WINDOW}"
-    )
+    window = style.window(len(episodes))
+    running = style.running(reward, window=window)
+    axes.plot(number, running, color=style.BLUE, linewidth=2, label=f"running median of {window}")
     axes.set(
         xlabel="episode",
-        ylabel="total reward (linear within 10, then logarithmic)",
-        title="Total reward of each episode",
+        ylabel="total reward",
+        title="Total reward of each episode (linear within 10, then logarithmic)",
     )
-    axes.set_xlim(0, number[-1] + 1)
+    axes.set_xlim(number[0] - 1, number[-1] + 1)
     axes.set_yscale("symlog", linthresh=10)  # the first are hundreds of times as large as the last
+    axes.set_ylim(min(-1, 1.5 * reward.min()), max(1, 1.5 * reward.max()))
+    axes.xaxis.set_major_locator(plt.MaxNLocator(integer=True))
     axes.legend(loc="lower right", framealpha=0.9, frameon=True, edgecolor="none")
     return figure

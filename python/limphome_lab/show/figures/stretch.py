@@ -3,13 +3,11 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from limphome_lab.robot import read
 from limphome_lab.show.figures import style
 
 
-def draw(file, episode, states, decisions):
-    """`file`: of the robot; the rest: the messages of one episode."""
-    robot = read(file)
+def draw(robot, episode, states, decisions):
+    """`robot`: as limphome_lab.robot reads it; the rest: the messages of one episode."""
     begin = episode.utime * 1e-6 - episode.duration
     figure, (margin, torque, way) = plt.subplots(3, 1, figsize=(7.2, 7.4), sharex=True, layout="constrained")
     decided = [decision.utime * 1e-6 - begin for decision in decisions]

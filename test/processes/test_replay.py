@@ -1,0 +1,149 @@
+"""scripts/replay: what the page shows of a recording is what was recorded, and a video has its pictures in order."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+
+import numpy as np
+import pytest
+from browsing import Page
+
+from conftest import TIME_LIMIT_S, processes_that_mention, run_script, start_script, wait_until
+from limphome_lab import robot
+from limphome_lab.view.recorded import Recording
+
+
+@pytest.fixture
+def replay(browser):
+    """Opens the page of scripts/replay with these arguments."""
+    started = []
+
+    def open_page(*arguments):
+        process = start_script("replay", *arguments)
+        started.append(process)
+        address = re.search(r"http://\S+", process.stdout.readline())
+        assert address, process.communicate()[1]
+        return Page(browser, address[0])
+
+    yield open_page
+    for process in started:
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=TIME_LIMIT_S)
+        assert process.returncode == 128 + signal.SIGINT
+
+
+def recording(run):
+    return Recording(run.messages, robot.read(run.robot))
+
+
+def drag_to(page, share):
+    """The slider's thumb to a share of its track."""
+    track = page.page.locator(".mantine-Slider-track").first.bounding_box()
+    thumb = page.page.get_by_role("slider").bounding_box()
+    mouse, middle = page.page.mouse, thumb["y"] + thumb["height"] / 2
+    mouse.move(thumb["x"] + thumb["width"] / 2, middle)
+    mouse.down()
+    mouse.move(track["x"] + share * track["width"], middle, steps=3)
+    mouse.up()
+
+
+def shown_time(page):
+    return float(page.find(r"([\d.]+) s of [\d.]+ s,")[0])
+
+
+def test_slider_shows_the_moment_that_was_recorded(smoke_run, replay):
+    track = recording(smoke_run).episode(7)
+    page = replay(smoke_run.path, "--episode", 7)
+    page.find(r"[\d.]+ s of " + f"{track.duration:.2f} s")
+    page.press("Pause  (P)")
+    page.find(r"Play\s+\(P\)")
+    assert page.find(r"outcome\s+(\w+)\s+decisions\s+(\d+)") == (track.outcome, str(track.ending.steps))
+    assert page.find(r"reward\s+(-?[\d.]+)")[0] == f"{track.ending.reward:.2f}"
+    pictures = []
+    for share in (0.2, 0.8):
+        drag_to(page, share)
+        page.page.wait_for_timeout(1000)
+        moment = shown_time(page)
+        assert abs(moment - share * track.duration) < 0.05 * track.duration, "the slider is where it was put"
+        decision = track.decision(moment)
+        assert page.find(r"Episode (\d+), decision (\d+)") == ("7", str(decision.step))
+        assert page.find(r"Q of the action\s+(\S+)[\s\S]*stability margin\s+(\S+) m") == (
+            f"{decision.q:.3f}",
+            f"{decision.stability_margin:.3f}",
+        )
+        pictures.append(page.picture())
+    assert pictures[0] != pictures[1], "the robot has moved"
+    assert page.foreign == []
+
+
+def test_two_runs_side_by_side(smoke_run, replay, tmp_path):
+    shutil.copytree(smoke_run.path, tmp_path / "other", ignore=shutil.ignore_patterns("evaluation", "export"))
+    page = replay(smoke_run.path, tmp_path / "other", "--speed", 10)
+    last = recording(smoke_run).episode()
+    page.find(rf"{last.outcome}[\s\S]*{tmp_path.name}/other[\s\S]*{last.outcome}")
+    first = shown_time(page)
+    page.page.wait_for_timeout(500)
+    assert shown_time(page) > first, "it plays by itself"
+
+
+def test_what_cannot_be_shown_is_told(smoke_run, tmp_path):
+    for arguments, told in (
+        (["--episode", 99], "no states of episode 99; it has those of 1 to 30"),
+        (["--speed", 0], "--speed 0: must be from"),
+        (["--video", tmp_path / "x.avi"], "ends in none of .mp4, .gif"),
+        (["--video", tmp_path / "none" / "x.gif"], "there is no folder"),
+        (["--video", tmp_path / "x.gif", "--angle", "below"], "--angle 'below': must be one of corner, side"),
+        (["--video", tmp_path / "x.gif", "--size", "33x20"], "--size '33x20': must be WIDTHxHEIGHT"),
+    ):
+        result = run_script("replay", smoke_run.path, *arguments, check=False)
+        assert result.returncode == 2 and told in result.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def decoded(file, width, height):
+    """[n x height x width x 3] pictures of a video, by ffmpeg."""
+    command = ["ffmpeg", "-loglevel", "error", "-i", file, "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+    content = subprocess.run(command, check=True, capture_output=True).stdout
+    return np.frombuffer(content, np.uint8).reshape(-1, height, width, 3).astype(int)
+
+
+needs_browser = pytest.mark.skipif(
+    not (shutil.which("chromium") and shutil.which("ffmpeg")), reason="chromium or ffmpeg is missing"
+)
+
+
+@needs_browser
+@pytest.mark.parametrize("suffix, rate", [("gif", 12.5), ("mp4", 25)])
+def test_video_shows_the_robot_move(smoke_run, tmp_path, suffix, rate):
+    file = tmp_path / f"seen.{suffix}"
+    speed = 100  # of an episode of 100 s
+    size = ["--size", "96x64", "--angle", "corner,above"]
+    result = run_script("replay", smoke_run.path, "--episode", 7, "--speed", speed, "--video", file, *size)
+    assert result.stdout.strip() == str(file)
+    pictures = decoded(file, 192, 64)
+    duration = recording(smoke_run).episode(7).duration
+    assert abs(len(pictures) - (duration / speed + 1) * rate) <= 1
+    half = pictures[:, :48]  # without the caption
+    moved = np.abs(np.diff(half, axis=0)).max(axis=(1, 2, 3))
+    while_driving = round(duration / speed * rate)
+    assert (moved[: while_driving - 2] > 20).all(), "each picture is another"
+    assert (moved[while_driving + 1 :] < 20).all(), "and at the end it stands: no picture comes late"
+    red = (half[..., 0] > 90) & (half[..., 1:] < 60).all(axis=-1)
+    assert red[0].any(), "the failed crawler is seen"
+    assert [each.name for each in tmp_path.iterdir()] == [file.name]
+
+
+@needs_browser
+def test_interrupted_video_leaves_no_browser_and_no_file(smoke_run, tmp_path):
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    words = ["--episode", 7, "--video", tmp_path / "long.mp4", "--size", "64x64"]
+    process = start_script("replay", smoke_run.path, *words, env={**os.environ, "TMPDIR": str(temporary)})
+    wait_until(process, lambda: processes_that_mention(temporary))
+    process.send_signal(signal.SIGINT)
+    _, told = process.communicate(timeout=TIME_LIMIT_S)
+    assert process.returncode == 128 + signal.SIGINT and "Traceback" not in told
+    assert [each.name for each in tmp_path.iterdir()] == ["temporary"] and list(temporary.iterdir()) == []
+    assert processes_that_mention(temporary) == []
