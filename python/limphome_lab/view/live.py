@@ -28,11 +28,12 @@ from limphome_lab.view.scene import RobotScene
 from limphome_lab.view.server import Page
 
 FRAME_S = 1 / 30
-TEXT_S = 0.2  # between two times that text and plots are brought up to date
+FREE_FRAME_S = 1 / 10  # of a plant that goes as fast as it can: the eye sees leaps anyway, and the run has the time
+TEXT_S = 0.25  # between two times that text and plots are brought up to date
 LOOK_S = 0.5  # between two looks for pairs
 POSE_STALE_S = 1.0  # a plant that has sent no pose for so long is shown by its states
 FIRST_PACE = 4.0  # times real time, of a run that was started with its page
-OPEN_WITHIN_S = 60.0  # of its start: until then it is held to that pace without anybody looking
+OPEN_WITHIN_S = 60.0  # of its start: until then it is held to that pace, and its page kept, without anybody looking
 LINGER_S = 3.0  # after the last page was closed, of a run that has ended; a page that is loaded anew is back by then
 KEPT_STATES = 16  # to find the one that a decision tells of
 PANEL_WIDTH = 380  # [px]
@@ -46,7 +47,7 @@ class Live:
 
     def __init__(self, page, run=None, pid=None, joins=None):
         self.page, self.run, self.pid, self.joins = page, run, pid, joins
-        self.pair = self.feed = self.scene = None
+        self.pair = self.feed = self.scene = self.pose = None
         self._has_joined = False
         self._looked_at = float("-inf")
         self._later = queue.SimpleQueue()  # what a person has asked for, done between two frames
@@ -74,7 +75,8 @@ class Live:
         with contextlib.ExitStack() as stack:
             stack.callback(self._leave)
             while not self._done():
-                due = time.monotonic() + FRAME_S
+                free = self.pose is not None and self.pose.pace == pose_t.PACE_FREE
+                due = time.monotonic() + (FREE_FRAME_S if free else FRAME_S)
                 while not self._later.empty():
                     self._later.get()()
                 if due - looked >= LOOK_S:
@@ -142,9 +144,11 @@ class Live:
         self._posed = float("-inf")
         self._lockstep = None  # not known yet
         self._joined = time.monotonic()
+        self._looked_at = max(self._looked_at, self._joined + OPEN_WITHIN_S - LINGER_S)
         self.curves.clear()
         self.drive.fit(described.actuators)
-        with contextlib.suppress(Ending):
+        self.episodes = []
+        with contextlib.suppress(Ending):  # its table is being begun, or is none
             self.episodes = folder.read_episodes()
         for episode in self.episodes:
             self.curves.add_episode(episode.episode, episode.reward)

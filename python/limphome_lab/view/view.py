@@ -1,12 +1,15 @@
 """Command view: a page in the browser that shows the robot of a running pair, live."""
 
 import argparse
+import os
 import sys
 from pathlib import Path
 
 from limphome_lab import command
 from limphome_lab.ending import with_exit_code
 from limphome_lab.run.processes import raise_on_signals
+
+NICE = 5  # the run comes first
 
 
 def parse_arguments():
@@ -28,6 +31,7 @@ def main():
     raise_on_signals()
     from limphome_lab.view import live  # viser takes a second to load
 
+    os.nice(NICE)
     run = None if args.run is None else Path(args.run).absolute()
     live.serve(run, args.port, args.pid, args.joins, lambda url: print(f"open {url}\nCtrl-C ends it", flush=True))
     return 0
