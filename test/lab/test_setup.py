@@ -14,7 +14,8 @@ import pytest
 from limphome_lab.paths import ROOT
 
 NOBODY = 65534
-TARGETS = re.findall(r"^    build_targets (.*)$", (ROOT / "scripts" / "setup").read_text(), re.MULTILINE)[0].split()
+SETUP = (ROOT / "scripts" / "setup").read_text().replace("\\\n", "")
+TARGETS = re.findall(r"^    build_targets (.*)$", SETUP, re.MULTILINE)[0].split()
 
 
 @pytest.mark.fault(
