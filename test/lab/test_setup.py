@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 import pytest
@@ -90,6 +91,8 @@ def test_what_another_user_has_set_up_and_is_old_is_told(tree, stale):
         (tree / "scripts" / "requirements.txt").write_text("more\n")
     elif stale == "source":
         (tree / "controller" / "new.c").touch()
+        later = time.time() + 10  # the clock of files has ticks
+        os.utime(tree / "controller" / "new.c", (later, later))
     else:
         (tree / "build" / "built" / TARGETS[0]).unlink()
     result = set_up(tree, by_another=True)
