@@ -184,7 +184,7 @@ static int take_in(environment *e, const plant_state *taken, float *inputs, doub
     }
     const bool fault = taken->begins && !e->asked;
     if (taken->begins) {
-        lh_task_begin(&e->task, e->episode);
+        lh_task_begin(&e->task, fault ? e->task.episode.number : e->episode);
         e->asked = false;
     }
     if (taken->gap) {

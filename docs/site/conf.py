@@ -10,7 +10,7 @@ copyright = "2026, the limphome authors"
 html_title = "limphome"
 root_doc = "index"
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
-exclude_patterns = ["docs/site/**", "docs/results_q_learning.md"]  # the latter is part of results.md
+exclude_patterns = ["docs/site/**", "docs/results_*.md"]  # the latter are parts of results.md
 
 myst_heading_anchors = 4
 suppress_warnings = ["myst.header"]  # a page may begin below the first level
@@ -20,6 +20,7 @@ breathe_default_project = "limphome"
 breathe_domain_by_extension = {"h": "c"}
 breathe_show_include = False
 
+default_role = "code"  # `names` in docstrings
 autodoc_member_order = "bysource"
 autodoc_typehints = "description"
 

@@ -23,6 +23,7 @@ SCRIPTS = (
     "results",
     "robot",
     "setup",
+    "site",
     "soak",
     "spy",
     "study",

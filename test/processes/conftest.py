@@ -116,3 +116,17 @@ def browser():
     import browsing
 
     yield from browsing.browser()
+
+
+def geared_robot(folder):
+    """File of a robot geared beyond reason, whose world diverges when a crawler drives."""
+    robot = folder / "geared.urdf"
+    text = (ROOT / "config" / "crawler.urdf").read_text()
+    for reasonable, absurd in (
+        ('radius="0.18"', 'radius="0.0001"'),
+        ('0.475 0.18" length', '0.475 0.0001" length'),
+        ('effort="1000" velocity="5"', 'effort="1e9" velocity="1e4"'),
+    ):
+        text = text.replace(reasonable, absurd)
+    robot.write_text(text)
+    return robot

@@ -15,7 +15,8 @@ import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 
-from conftest import ROOT, SMOKE, TIME_LIMIT_S, train
+from conftest import ROOT, SMOKE, TIME_LIMIT_S, geared_robot, train
+from limphome_lab import network
 from limphome_lab.channels import DECISION, EPISODE
 from limphome_lab.ending import InputError
 from limphome_lab.gym import ID, LimpHome, LimpHomeVector
@@ -177,6 +178,24 @@ def test_the_vector_is_what_make_vec_makes():
     vector.close()
 
 
+def test_a_python_for_each_comes_to_the_same(make):
+    ours = make(LimpHomeVector, num_envs=2, config=NOISY, set=SHORT)
+    theirs = gymnasium.make_vec(ID, num_envs=2, vectorization_mode="async", config=NOISY, set=SHORT)
+    assert ours.reset(seed=4)[0].tolist() == theirs.reset(seed=4)[0].tolist()
+    for action in actions_of(3, 5):
+        actions = np.array([action, 80 - action])
+        for ours_told, theirs_told in zip(ours.step(actions)[:4], theirs.step(actions)[:4], strict=True):
+            assert ours_told.tolist() == theirs_told.tolist()
+    theirs.close()
+
+
+@pytest.mark.skipif(network.group_is_on_loopback(), reason="the host's network may be used here")
+def test_where_nothing_may_be_sent_it_is_told(monkeypatch):
+    monkeypatch.setattr(network, "private_prefix", lambda: None)
+    with pytest.warns(UserWarning, match="namespaces"), pytest.raises(network.NetworkError, match="run once"):
+        LimpHome()
+
+
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
@@ -215,8 +234,21 @@ def test_a_simulator_that_dies_is_told(make):
     env = make()
     env.reset()
     os.kill(simulator_of(env), signal.SIGKILL)
-    with pytest.raises(PlantEnded, match="ended early"):
+    with pytest.raises(PlantEnded, match=r"ended early \(signal SIGKILL\)"):
         env.step(0)
+
+
+def test_a_simulation_that_diverges_ends_the_episode_and_goes_on(tmp_path, make):
+    env = make(robot=geared_robot(tmp_path), set={"failure.actuator": "none"})
+    still, drive = 121, 124  # the right crawler
+    first, _ = env.reset()
+    assert "outcome" not in env.step(still)[4]
+    *told, info = env.step(drive)
+    assert told[1:] == [0.0, False, True] and info["outcome"] == "fault"
+    assert told[0].tolist() == first.tolist()
+    _, info = env.reset()
+    assert info["episode_number"] == 2
+    assert not any(env.step(still)[2:4])
 
 
 def test_no_simulator_is_left():

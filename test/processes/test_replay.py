@@ -12,6 +12,7 @@ from browsing import Page
 
 from conftest import TIME_LIMIT_S, processes_that_mention, run_script, start_script, wait_until
 from limphome_lab import robot
+from limphome_lab.view import video
 from limphome_lab.view.recorded import Recording
 
 
@@ -53,6 +54,19 @@ def shown_time(page):
     return float(page.find(r"([\d.]+) s of [\d.]+ s,")[0])
 
 
+def wait_for_time(page, wanted, within):
+    """(time, episode, decision, Q, margin) that are shown, once the time is near and stays."""
+    shown = before = None
+    while shown is None or shown != before or abs(float(shown[0]) - wanted) > within:
+        page.page.wait_for_timeout(500)
+        before = shown
+        shown = page.find(
+            r"([\d.]+) s of [\d.]+ s,[\s\S]*Episode (\d+), decision (\d+)"
+            r"[\s\S]*Q of the action\s+(\S+)[\s\S]*stability margin\s+(\S+) m"
+        )
+    return shown
+
+
 def test_slider_shows_the_moment_that_was_recorded(smoke_run, replay):
     track = recording(smoke_run).episode(7)
     page = replay(smoke_run.path, "--episode", 7)
@@ -64,15 +78,9 @@ def test_slider_shows_the_moment_that_was_recorded(smoke_run, replay):
     pictures = []
     for share in (0.2, 0.8):
         drag_to(page, share)
-        page.page.wait_for_timeout(1000)
-        moment = shown_time(page)
-        assert abs(moment - share * track.duration) < 0.05 * track.duration, "the slider is where it was put"
-        decision = track.decision(moment)
-        assert page.find(r"Episode (\d+), decision (\d+)") == ("7", str(decision.step))
-        assert page.find(r"Q of the action\s+(\S+)[\s\S]*stability margin\s+(\S+) m") == (
-            f"{decision.q:.3f}",
-            f"{decision.stability_margin:.3f}",
-        )
+        shown = wait_for_time(page, share * track.duration, within=0.05 * track.duration)
+        decision = track.decision(float(shown[0]))
+        assert shown[1:] == ("7", str(decision.step), f"{decision.q:.3f}", f"{decision.stability_margin:.3f}")
         pictures.append(page.picture())
     assert pictures[0] != pictures[1], "the robot has moved"
     assert page.foreign == []
@@ -115,24 +123,36 @@ needs_browser = pytest.mark.skipif(
 
 
 @needs_browser
-@pytest.mark.parametrize("suffix, rate", [("gif", 12.5), ("mp4", 25)])
-def test_video_shows_the_robot_move(smoke_run, tmp_path, suffix, rate):
-    file = tmp_path / f"seen.{suffix}"
-    speed = 100  # of an episode of 100 s
+def test_video_shows_the_robot_move(smoke_run, tmp_path):
+    file = tmp_path / "seen.gif"
+    speed, rate = 100, 12.5  # pictures a second; an episode of 100 s
     size = ["--size", "96x64", "--angle", "corner,above"]
-    result = run_script("replay", smoke_run.path, "--episode", 7, "--speed", speed, "--video", file, *size)
+    result = run_script("replay", smoke_run.path, "--episode", 7, "--speed", 100, "--video", file, *size)
     assert result.stdout.strip() == str(file)
     pictures = decoded(file, 192, 64)
-    duration = recording(smoke_run).episode(7).duration
-    assert abs(len(pictures) - (duration / speed + 1) * rate) <= 1
-    half = pictures[:, :48]  # without the caption
-    moved = np.abs(np.diff(half, axis=0)).max(axis=(1, 2, 3))
-    while_driving = round(duration / speed * rate)
-    assert (moved[: while_driving - 2] > 20).all(), "each picture is another"
-    assert (moved[while_driving + 1 :] < 20).all(), "and at the end it stands: no picture comes late"
-    red = (half[..., 0] > 90) & (half[..., 1:] < 60).all(axis=-1)
-    assert red[0].any(), "the failed crawler is seen"
+    driving = recording(smoke_run).episode(7).duration / speed * rate
+    assert abs(len(pictures) - driving - rate) <= 1
+    both = pictures[:, :48]  # without the caption
+    moved = np.abs(np.diff(both, axis=0)).max(axis=(1, 2, 3))
+    assert (moved[: int(driving) - 1] > 20).all(), "each picture is another"
+    assert (moved[int(driving) + 2 :] < 20).all(), "and at the end it stands: no picture comes late"
+    red, green, blue = np.moveaxis(both, -1, 0)
+    failed = (red > 90) & (green < 0.6 * red) & (blue < 0.5 * red)
+    assert failed[0, :, :96].any() and failed[0, :, 96:].any(), "the failed crawler is seen from both"
     assert [each.name for each in tmp_path.iterdir()] == [file.name]
+
+
+@pytest.mark.skipif(not shutil.which("ffmpeg"), reason="ffmpeg is not installed")
+@pytest.mark.parametrize("suffix", [".mp4", ".gif"])
+def test_videos_have_each_picture_in_its_place(tmp_path, suffix):
+    rate, options = video.FORMATS[suffix]
+    file = tmp_path / f"grey{suffix}"
+    shades = np.arange(10, 250, 16)
+    with video.Encoder(file, (64, 32), rate, options) as encoder:
+        for shade in shades:
+            encoder.add(np.full((32, 64, 3), shade, np.uint8))
+        encoder.finish()
+    assert decoded(file, 64, 32).mean(axis=(1, 2, 3)) == pytest.approx(shades, abs=4)
 
 
 @needs_browser

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from conftest import ROOT, TIME_LIMIT_S, run_script, train
+from conftest import ROOT, TIME_LIMIT_S, geared_robot, run_script, train
 from limphome import policy_t
 from limphome_lab import network, paths
 from limphome_lab.channels import DECISION, STATE
@@ -82,15 +82,7 @@ def drive(tmp_path, velocities):
     prefix = network.private_prefix()
     if prefix is None:
         pytest.skip("network namespaces are not permitted here")
-    robot = tmp_path / "geared.urdf"
-    text = (ROOT / "config" / "crawler.urdf").read_text()
-    for reasonable, absurd in (
-        ('radius="0.18"', 'radius="0.0001"'),
-        ('0.475 0.18" length', '0.475 0.0001" length'),
-        ('effort="1000" velocity="5"', 'effort="1e9" velocity="1e4"'),
-    ):
-        text = text.replace(reasonable, absurd)
-    robot.write_text(text)
+    robot = geared_robot(tmp_path)
     simulator = [
         paths.program("simulator"),
         "--robot",

@@ -4,6 +4,7 @@ A process with threads, such as a notebook's, cannot go into another user's name
 that it was made in, whoever holds it: so what starts in there makes the sockets and hands them out (inside.py).
 """
 
+import contextlib
 import os
 import shutil
 import socket
@@ -11,9 +12,11 @@ import sys
 import tempfile
 import warnings
 from pathlib import Path
+from typing import Any
 
 from limphome_lab import network, paths
 from limphome_lab.ending import Ending
+from limphome_lab.run.pair import how_it_ended
 from limphome_lab.run.processes import Child
 from limphome_lab.runfolder import RunFolder
 
@@ -34,10 +37,12 @@ class Plant:
         self._logs = Path(tempfile.mkdtemp(prefix="limphome-"))
         program = [paths.program("simulator"), "--config", folder.config, "--robot", folder.robot]
         program += ["--set", f"learning.seed={seed}"]
+        self._parts = contextlib.ExitStack()
+        self._parts.callback(shutil.rmtree, self._logs, ignore_errors=True)
         try:
             self.url = self._start([str(word) for word in program])
         except BaseException:
-            shutil.rmtree(self._logs)
+            self.stop()
             raise
 
     def _start(self, program: list[str]) -> str:
@@ -46,34 +51,33 @@ class Plant:
         if prefix is None:
             warnings.warn("namespaces are not permitted here; using the host's network", stacklevel=2)
             url = network.lcm_url(network.host_port())
-            self._child = Child("simulator", [*program, "--lcm-url", url], self._logs / "simulator.log")
+            self._run([*program, "--lcm-url", url])
             return url
         url = network.lcm_url()
         here, there = socket.socketpair()
         with here, there:
             helper = [sys.executable, "-I", "-S", str(INSIDE), str(there.fileno()), str(self._maker)]
-            words = [*prefix, *helper, *program, "--lcm-url", url]
-            self._child = Child("simulator", words, self._logs / "simulator.log", pass_fds=[there.fileno()])
+            self._run([*prefix, *helper, *program, "--lcm-url", url], pass_fds=[there.fileno()])
             there.close()
             here.settimeout(PATIENCE_S)
             descriptors = socket.recv_fds(here, 1, 2)[1]
         if len(descriptors) != 2:
-            self._child.stop()
-            raise self._ended()
+            raise PlantEnded(f"limphome-simulator has not begun:\n{self._child.log_tail()}")
         receiver, sender = descriptors
+        for each in descriptors:
+            os.set_inheritable(each, False)
         return f"{url}&receiver={receiver}&sender={sender}"
 
-    def _ended(self) -> PlantEnded:
-        code = self._child.exit_code()
-        return PlantEnded(f"limphome-simulator ended early (exit code {code}):\n{self._child.log_tail()}")
+    def _run(self, words: list[str], **options: Any) -> None:
+        self._child = Child("simulator", words, self._logs / "simulator.log", **options)
+        self._parts.callback(self._child.stop)
 
     def check(self) -> None:
-        """Raises PlantEnded where it has."""
-        if self._child.exit_code() is not None:
-            raise self._ended()
+        """Raises PlantEnded where it has ended."""
+        if (code := self._child.exit_code()) is not None:
+            raise PlantEnded(f"limphome-simulator ended early ({how_it_ended(code)}):\n{self._child.log_tail()}")
 
     def stop(self) -> None:
         """Ends it, unless a copy of its maker asks for it."""
         if os.getpid() == self._maker:
-            self._child.stop()
-            shutil.rmtree(self._logs, ignore_errors=True)
+            self._parts.close()

@@ -57,7 +57,7 @@ def _remove(place: Path, maker: int) -> None:
 
 class Session:
     """A plant with the task on it. `begin` and `act` ask for a state, `wait` takes it in; then `result`, `inputs` and
-    `values` tell of it. It must be closed, which its owner's end does (`ended_with`)."""
+    `values` tell of it. Its owner closes it."""
 
     def __init__(self, experiment: Experiment, line: bool, seed: int | None = None) -> None:
         self._experiment = experiment

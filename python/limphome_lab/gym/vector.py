@@ -49,9 +49,8 @@ class LimpHomeVector(VectorEnv[np.ndarray, np.ndarray, np.ndarray]):
         self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[np.ndarray, dict[str, Any]]:
         """Begins the next episode of all environments, or of those of the mask; returns observations and infos."""
-        first = seed if isinstance(seed, int) else None
-        super().reset(seed=first)
-        seeds = seed if isinstance(seed, Sequence) else [None if first is None else first + i for i in self._numbers()]
+        seeds = self._seeds(seed)
+        super().reset(seed=seeds[0])
         options = options or {}
         numbers = np.flatnonzero(options.get("reset_mask", np.ones(self.num_envs))).tolist()
         for number in numbers:
@@ -62,7 +61,7 @@ class LimpHomeVector(VectorEnv[np.ndarray, np.ndarray, np.ndarray]):
     def step(self, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:
         """One decision of each; returns observations, rewards, terminations, truncations and infos."""
         fresh = [session.terminated or session.truncated for session in self._sessions]
-        for session, action, begins in zip(self._sessions, actions.tolist(), fresh, strict=True):
+        for session, action, begins in zip(self._sessions, np.asarray(actions).tolist(), fresh, strict=True):
             if begins:
                 session.begin()
             else:
@@ -71,6 +70,17 @@ class LimpHomeVector(VectorEnv[np.ndarray, np.ndarray, np.ndarray]):
         terminations = np.array([session.terminated for session in self._sessions])
         truncations = np.array([session.truncated for session in self._sessions])
         return observations, rewards, terminations, truncations, infos
+
+    def _seeds(self, seed: int | Sequence[int | None] | None) -> list[int | None]:
+        """Of each environment."""
+        if seed is None:
+            return [None] * self.num_envs
+        if not isinstance(seed, Sequence):
+            return [int(seed) + i for i in self._numbers()]
+        seeds = list(seed)
+        if len(seeds) != self.num_envs:
+            raise ValueError(f"{len(seeds)} seeds: must be {self.num_envs}, or one for the first")
+        return seeds
 
     def _numbers(self) -> range:
         return range(self.num_envs)

@@ -58,7 +58,8 @@ def check_fits(trained, assignments):
     if was["learner"]["kind"] == "planner":
         bound += [".".join(PERIOD), "planner.mechanics"]
     faults = [
-        f"{name} = {setting(now, name)}: {trained.path.name} has learned with {setting(was, name)} and drives with that alone"
+        f"{name} = {setting(now, name)}: {trained.path.name} has learned with {setting(was, name)} and drives with "
+        "nothing else"
         for name in bound
         if setting(now, name) != setting(was, name)
     ]

@@ -21,8 +21,8 @@ EPISODES = 50
 def parse_arguments():
     parser = command.parser(
         "evaluate",
-        "Drives with the policy of a run, without learning; leaves a run folder. Every episode begins from a pose of its "
-        "own, drawn by seed and episode: within 0.5 m, 0.1 rad of heading and 0.2 rad of each arm joint "
+        "Drives with the policy of a run, without learning; leaves a run folder. Every episode begins from a pose of "
+        "its own, drawn by seed and episode: within 0.5 m, 0.1 rad of heading and 0.2 rad of each arm joint "
         "(randomisation.position_m, .heading_rad, .joint_rad); --set one of them and only what is set is drawn, 0: "
         "always the same pose.",
         "runs/default-seed1-20250131-120000 --config config/rough.ini",

@@ -1,4 +1,4 @@
-"""Names of the constants that a field of a message may have, by the .lcm files: they stand below the field they are of."""
+"""Names of the constants that a field of a message may have, by the .lcm files: they stand below the field."""
 
 import functools
 import re

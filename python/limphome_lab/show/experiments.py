@@ -1,4 +1,4 @@
-"""Several runs side by side: which of them are one experiment with other seeds, and what tells the experiments apart."""
+"""Runs side by side: which of them are one experiment with other seeds, and what tells the experiments apart."""
 
 import json
 import re

@@ -10,8 +10,8 @@ from limphome_lab.ending import with_exit_code
 def parse_arguments():
     parser = command.parser(
         "plot",
-        "Draws the figures of a run: the paper's, terms of the reward, use of actions, margin and torque over an episode. "
-        "Of several runs: how learning went and the terms of the reward, with every seed, medians and quartiles.",
+        "Draws the figures of a run: the paper's, terms of the reward, use of actions, margin and torque over an "
+        "episode. Of several runs: how learning went and the terms of the reward: every seed, medians and quartiles.",
         "runs/default-seed1-20250131-120000 --value-map boom,arm --paper",
     )
     parser.add_argument("runs", metavar="RUN", nargs="+", help="run folder; of several, folders of such, too")

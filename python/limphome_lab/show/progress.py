@@ -65,7 +65,7 @@ class Progress:
         self.stream.flush()
 
     def text(self, now, width=WIDTH):
-        """In at most `width` characters: what matters less is left out where it is too long, and the bar has the rest."""
+        """In at most `width` characters: where it is too long, what matters less is left out; the bar has the rest."""
         count = f"{self.done:>{len(str(self.total))}}/{self.total}"
         taken = clock(now - self.began)
         if not self.recent:

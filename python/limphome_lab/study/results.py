@@ -14,6 +14,7 @@ from limphome_lab.show.progress import clock
 from limphome_lab.show.summary import summarise
 
 SECTIONS = {"q_learning": "The paper's method", "planner": "The planner"}  # by kind of learner
+OTHERS = {"stable_baselines3": "A learner of others: DQN of Stable-Baselines3"}  # told of in notes alone
 STRETCH = 250  # episodes at the end of a run that its row tells of
 OWN_ROBOT = paths.CONFIG / "crawler.urdf"
 VARIED = {("learning", "seed"), ("learning", "episodes")}  # within one experiment
@@ -207,7 +208,8 @@ def experiment(name, runs, out):
 
 
 def section(learner, runs, out):
-    """What was written of the learner in results_LEARNER.md beside the page, figures of its first experiment, and all of them."""
+    """What was written of the learner in results_LEARNER.md beside the page, figures of its first experiment, and all
+    of them."""
     notes = out / f"results_{learner}.md"
     parts = [f"## {SECTIONS[learner]}"]
     if notes.exists():
@@ -232,6 +234,10 @@ def document(runs, out):
         "the least such number.",
     ]
     parts += [section(learner, list(group), out) for learner, group in groupby(runs, key=lambda run: run.learner)]
+    for name, title in OTHERS.items():
+        notes = out / f"results_{name}.md"
+        if notes.exists():
+            parts.append(f"## {title}\n\n{notes.read_text().strip()}")
     return "\n\n".join(parts) + "\n"
 
 
@@ -239,8 +245,8 @@ def document(runs, out):
 def main():
     parser = command.parser(
         "results",
-        "Writes results.md, and its figures into images/, from the run folders of one or more experiments, each told of "
-        "by itself.",
+        "Writes results.md, and its figures into images/, from the run folders of one or more experiments, each told "
+        "of by itself.",
         "runs/paper-seed* --out results",
     )
     parser.add_argument("runs", metavar="RUN", nargs="+", help="run folder, folder of such, or folder of a study")

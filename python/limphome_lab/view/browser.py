@@ -28,7 +28,7 @@ OPTIONS = (
     "--enable-unsafe-swiftshader",
     "--window-size=320,240",  # small, as the page draws itself, too; it does not open in one much smaller
 )
-START_S = 60.0
+START_S = 180.0
 PICTURE_S = 300.0
 SETTLING = 40  # pictures at most until nothing changes any more
 
@@ -55,7 +55,8 @@ class Browser:
         # its sandbox does not work for root, which one also is within a network of a run's own; it opens our page alone
         without = ["--no-sandbox"] if os.geteuid() == 0 else []
         options = [*OPTIONS, *without, f"--user-data-dir={folder / 'profile'}", self._page.url]
-        self._child = Child("browser", [needed(*NAMES), *options], folder / "log")
+        own = ["env", f"HOME={folder}", f"TMPDIR={folder}"]  # it leaves files in both
+        self._child = Child("browser", [*own, needed(*NAMES), *options], folder / "log")
         try:
             self.client = self._connected()
         except BaseException:

@@ -9,6 +9,7 @@ import contextlib
 import hmac
 import http
 import io
+import logging
 import secrets
 from unittest import mock
 
@@ -24,6 +25,8 @@ class Page(viser.ViserServer):
     """`port` 0: a free one. `url` is what the person opens."""
 
     def __init__(self, label, port=0):
+        # a browser opens connections that it does not use, which is no news
+        logging.getLogger("websockets.server").setLevel(logging.CRITICAL)
         self.word = secrets.token_urlsafe(WORD_BYTES)
         guarded = _Guarded(websockets.asyncio.server.serve, self.word)
         # viser has no way to hand a check in; it starts its server by this function

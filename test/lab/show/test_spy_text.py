@@ -71,7 +71,7 @@ def test_a_channel_that_there_is_not_is_refused_with_those_there_are():
     def refuse(text):
         raise AssertionError(text)
 
-    with pytest.raises(AssertionError, match="must be one of ARM, .*STATE, STATUS"):
+    with pytest.raises(AssertionError, match=r"must be one of ARM, .*STATE, STATUS"):
         spy.full_name("STAT", SimpleNamespace(error=refuse))
 
 

@@ -109,6 +109,10 @@ def test_learners_have_sections_with_what_was_written_of_them(tmp_path, out):
     text = results.document([results.Run(planned), results.Run(make_run(tmp_path / "run"))], out)
     assert "## The paper's method\n\nWhat we make of it.\n\n" in text
     assert text.index("### paper\n") < text.index("## The planner") < text.index("### mine, kind = planner")
+    assert "Stable-Baselines3" not in text
+    (out / "results_stable_baselines3.md").write_text("What it came to.\n")
+    text = results.document([results.Run(planned)], out)
+    assert text.endswith("\n\n## A learner of others: DQN of Stable-Baselines3\n\nWhat it came to.\n")
 
 
 def test_figures_are_copied_beside_the_page(tmp_path, out):
@@ -139,7 +143,7 @@ def test_run_that_has_not_finished_is_refused(tmp_path):
 
 def test_one_seed_does_not_count_twice(tmp_path, out):
     runs = [results.Run(make_run(tmp_path / name, 1)) for name in ("one", "other")]
-    with pytest.raises(InputError, match="seed 1 of paper would count twice: .*one and .*other"):
+    with pytest.raises(InputError, match=r"seed 1 of paper would count twice: .*one and .*other"):
         results.document(runs, out)
 
 

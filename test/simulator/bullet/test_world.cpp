@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <memory>
@@ -154,6 +155,49 @@ TEST(World, IsTheSameInAnotherProcess) {
     const std::string here = trajectory(world);
     EXPECT_EQ(output_of(TRAJECTORY_PROGRAM), here);
     EXPECT_EQ(output_of("PADDING=xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx " TRAJECTORY_PROGRAM), here);
+}
+
+// Whoever holds the world up between its time steps, and looks at it there, changes nothing that its sensors tell.
+TEST(World, IsTheSameLookedAt) {
+    settings noisy = left_locked();
+    noisy.sensors.joint.noise = 0.01;
+    World alone(paper_robot(), noisy), watched(paper_robot(), noisy);
+    const double command[max_actuators] = {0, 0.3, 0.2, -0.2, 0.3};
+    int looks = 0;
+    const auto look = [&](double seconds) {
+        robot_state_t exact{};
+        ground_truth_t truth{};
+        EXPECT_EQ(seconds, watched.time_step());
+        EXPECT_TRUE(watched.exact(exact) && watched.truth(truth));
+        EXPECT_EQ(exact.utime, std::llround(watched.time() * 1e6));
+        EXPECT_EQ(exact.actuator_position[boom], state(watched).actuator_position[boom]);
+        looks++;
+        return true;
+    };
+    for (int decision = 0; decision < 4; decision++) {
+        alone.command(command);
+        alone.advance(decision_period);
+        watched.command(command);
+        watched.advance_asking(decision_period, look);
+        robot_state_t read{}, read_watched{};
+        alone.sense(read);
+        watched.sense(read_watched);
+        EXPECT_EQ(read.utime, read_watched.utime);
+        for (int a = 0; a < read.num_actuators; a++) {
+            EXPECT_EQ(read.actuator_position[a], read_watched.actuator_position[a]) << a;
+            EXPECT_EQ(read.actuator_effort[a], read_watched.actuator_effort[a]) << a;
+        }
+        EXPECT_NE(read.actuator_position[boom], state(alone).actuator_position[boom]);
+    }
+    EXPECT_EQ(looks, 4 * std::lround(decision_period / watched.time_step()));
+}
+
+TEST(World, StopsWhereItIsToldTo) {
+    World world(paper_robot(), left_locked());
+    int steps = 0;
+    world.advance_asking(decision_period, [&steps](double) { return steps++ < 7; });
+    EXPECT_NEAR(world.time(), 7 * world.time_step(), 1e-12);
+    EXPECT_EQ(steps, 8);
 }
 
 // A world that diverges stops at once, and a reset makes it sound again.

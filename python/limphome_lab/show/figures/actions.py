@@ -10,7 +10,8 @@ LEVELS = (("reverse", style.ORANGE), ("still", "#d8dde3"), ("forward", style.BLU
 
 
 def draw(robot, controlled, decisions):
-    """`robot`: as limphome_lab.robot reads it; `controlled`: indices of actuators; `decisions`: of the whole run, or evenly chosen."""
+    """`robot`: as limphome_lab.robot reads it; `controlled`: indices of actuators; `decisions`: of the whole run, or
+    evenly chosen."""
     names = [robot.actuators[index].replace("_", " ") for index in controlled]
     episode = np.array([decision.episode for decision in decisions])
     action = np.array([decision.action for decision in decisions])

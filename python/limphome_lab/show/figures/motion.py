@@ -7,7 +7,6 @@ lies elsewhere under each part of the robot.
 
 import matplotlib.pyplot as plt
 import numpy as np
-
 from matplotlib.patches import Polygon
 
 from limphome_lab.robot import apply, read
