@@ -9,6 +9,7 @@ import viser
 import websockets.asyncio.client
 import websockets.exceptions
 
+from limphome_lab.ending import InputError
 from limphome_lab.view.server import HOST, Page
 
 
@@ -66,3 +67,14 @@ def test_a_socket_needs_the_address_and_the_origin(page):
 
 def test_is_never_shared(page):
     assert page.request_share_url() is None
+
+
+@pytest.mark.parametrize("port", [-1, 65536])
+def test_refuses_what_is_no_port(port):
+    with pytest.raises(InputError, match=f"--port {port}: must be from 0"):
+        Page("test", port)
+
+
+def test_refuses_a_port_in_use(page):
+    with pytest.raises(InputError, match="in use"):
+        Page("test", page.get_port())

@@ -230,6 +230,25 @@ def test_calls_out_of_turn_are_refused(make):
         env.reset()
 
 
+@pytest.mark.parametrize("action", [1.5, "1", np.float32(2), -1, 81])
+def test_what_is_no_action_is_refused_and_changes_nothing(make, action):
+    env, pair = make(set=SHORT), make(LimpHomeVector, num_envs=2, set=SHORT)
+    env.reset()
+    pair.reset()
+    with pytest.raises((TypeError, ValueError)):
+        env.step(action)
+    with pytest.raises((TypeError, ValueError)):
+        pair.step([4, action])
+    assert env.step(np.array(4))[1] == pair.step([4, 4])[1][0], "the next is the first that is taken"
+
+
+def test_a_vector_has_one_environment_at_least_and_a_mask_for_all(make):
+    with pytest.raises(ValueError, match="0 environments: must be at least 1"):
+        LimpHomeVector(0)
+    with pytest.raises(ValueError, match="reset_mask"):
+        make(LimpHomeVector, num_envs=2, set=SHORT).reset(options={"reset_mask": np.array([True])})
+
+
 def test_a_simulator_that_dies_is_told(make):
     env = make()
     env.reset()

@@ -82,7 +82,7 @@ class LimpHome(gymnasium.Env[np.ndarray, np.int64]):
     def step(self, action: int | np.int64) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
         """One decision; returns observation, reward, terminated, truncated and info."""
         session = self._session
-        session.act(int(action))
+        session.act(action)
         session.wait()
         info = session.values()
         return session.inputs(), info.pop("reward"), session.terminated, session.truncated, info

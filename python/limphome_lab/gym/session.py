@@ -1,6 +1,7 @@
 """An experiment, and a plant with the task on it: what one environment and a vector of them are made of."""
 
 import contextlib
+import operator
 import os
 import shutil
 import tempfile
@@ -87,8 +88,7 @@ class Session:
     def begin(self, seed: int | None = None, put_back: bool = False) -> None:
         """Asks for the next episode: where the robot stands, where the last one ended and the task does not ask for
         more; else, and with `put_back`, in the initial pose; with a seed, for episode 1 of that."""
-        if self._task.closed:
-            raise ClosedEnvironmentError("the environment is closed")
+        self._check_open()
         if seed is not None:
             self._begin_anew(seed)
         elif put_back or self.result not in (GOAL, TUMBLE, TIMEOUT) or not self._task.next_episode():
@@ -96,6 +96,10 @@ class Session:
         else:
             self._episode += 1
             self.result = GOES_ON
+
+    def _check_open(self) -> None:
+        if self._task.closed:
+            raise ClosedEnvironmentError("the environment is closed")
 
     def _begin_anew(self, seed: int) -> None:
         if not 0 <= seed <= SEED_MAX:
@@ -109,13 +113,18 @@ class Session:
         self._episode = episode
         self.result = WAITING
 
-    def act(self, action: int) -> None:
-        """Answers the newest state by a joint action."""
+    def check(self, action: int | np.int64) -> None:
+        """Raises where it is no action, or none can be taken now."""
+        self._check_open()
         if self.result != GOES_ON:
             raise ResetNeeded("the episode is over, or none has begun: call reset first")
-        if not 0 <= action < self.num_actions:
+        if not 0 <= operator.index(action) < self.num_actions:
             raise ValueError(f"action {action}: must be 0 to {self.num_actions - 1}")
-        self._task.act(action)
+
+    def act(self, action: int | np.int64) -> None:
+        """Answers the newest state by a joint action."""
+        self.check(action)
+        self._task.act(operator.index(action))
         self.result = WAITING
 
     def wait(self) -> None:

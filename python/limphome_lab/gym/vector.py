@@ -34,6 +34,8 @@ class LimpHomeVector(VectorEnv[np.ndarray, np.ndarray, np.ndarray]):
         set: Mapping[str, Any] | None = None,
         line: bool = False,
     ) -> None:
+        if num_envs < 1:
+            raise ValueError(f"{num_envs} environments: must be at least 1")
         self.num_envs = num_envs
         self._sessions: list[Session] = []
         self._end = weakref.finalize(self, _close, self._sessions)
@@ -52,7 +54,10 @@ class LimpHomeVector(VectorEnv[np.ndarray, np.ndarray, np.ndarray]):
         seeds = self._seeds(seed)
         super().reset(seed=seeds[0])
         options = options or {}
-        numbers = np.flatnonzero(options.get("reset_mask", np.ones(self.num_envs))).tolist()
+        mask = np.asarray(options.get("reset_mask", np.ones(self.num_envs)))
+        if mask.shape != (self.num_envs,):
+            raise ValueError(f"reset_mask of shape {mask.shape}: must be ({self.num_envs},)")
+        numbers = np.flatnonzero(mask).tolist()
         for number in numbers:
             self._sessions[number].begin(seeds[number], bool(options.get("put_back")))
         observations, _, infos = self._take_in(numbers)
@@ -61,7 +66,11 @@ class LimpHomeVector(VectorEnv[np.ndarray, np.ndarray, np.ndarray]):
     def step(self, actions: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:
         """One decision of each; returns observations, rewards, terminations, truncations and infos."""
         fresh = [session.terminated or session.truncated for session in self._sessions]
-        for session, action, begins in zip(self._sessions, np.asarray(actions).tolist(), fresh, strict=True):
+        steps = list(zip(self._sessions, np.asarray(actions).tolist(), fresh, strict=True))
+        for session, action, begins in steps:  # all, before any of them goes on
+            if not begins:
+                session.check(action)
+        for session, action, begins in steps:
             if begins:
                 session.begin()
             else:

@@ -11,20 +11,25 @@ import http
 import io
 import logging
 import secrets
+import socket
 from unittest import mock
 
 import viser
 import websockets.asyncio.server
 
+from limphome_lab.ending import InputError
+
 HOST = "127.0.0.1"
 NAMES = (HOST, "localhost")
 WORD_BYTES = 16  # of the secret
+PORT_MAX = 65535
 
 
 class Page(viser.ViserServer):
     """`port` 0: a free one. `url` is what the person opens."""
 
     def __init__(self, label, port=0):
+        _check(port)
         # a browser opens connections that it does not use, which is no news
         logging.getLogger("websockets.server").setLevel(logging.CRITICAL)
         self.word = secrets.token_urlsafe(WORD_BYTES)
@@ -74,6 +79,18 @@ class _Guarded:
             and hosts[0] in here
             and all(origin in [f"http://{each}" for each in here] for origin in origins)
         )
+
+
+def _check(port):
+    """viser waits for ever for a server that cannot have its port, and takes the next where one is in use."""
+    if not 0 <= port <= PORT_MAX:
+        raise InputError(f"--port {port}: must be from 0, a free one, to {PORT_MAX}")
+    with socket.socket() as tried:
+        tried.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            tried.bind((HOST, port))
+        except OSError as error:
+            raise InputError(f"--port {port}: {error.strerror}") from error
 
 
 @contextlib.contextmanager
