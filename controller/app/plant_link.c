@@ -213,5 +213,8 @@ void plant_link_reset(plant_link *l, int32_t episode) {
 session_break plant_link_broken(plant_link *l) {
     const session_break broken = l->session.broken;
     l->session.broken = SESSION_UNBROKEN;
+    if (broken != SESSION_UNBROKEN) { /* a state heard just before is of the session that is over */
+        l->fresh = l->begins = l->unanswered = false;
+    }
     return broken;
 }

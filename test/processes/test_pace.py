@@ -79,6 +79,21 @@ def put_back(bus, _assignments):
     return {}
 
 
+def put_back_unseen(bus, _assignments):
+    """Time and again while the controller is stopped: it hears of the state and of the end of its session at once."""
+    learns = bus.programs[-1]
+    seen = set()
+    for _ in range(4):
+        bus.until(lambda: bus.states and bus.state.session not in seen and bus.state.seq > 3)
+        learns.signal(signal.SIGSTOP)
+        bus.listen(0.05)
+        seen.add(bus.state.session)
+        say(bus, pace_t.RESET)
+        bus.until(lambda: bus.state.session not in seen, 1)
+        learns.signal(signal.SIGCONT)
+    return {}
+
+
 def left_alone(bus, _assignments):
     """The viewer is killed while the plant is paused."""
     pause(bus)
@@ -162,11 +177,12 @@ def test_looking_closer_changes_no_byte(tmp_path, unwatched, observe):
 
 @pytest.mark.fault(
     "a person puts the robot back in the midst of a run",
-    injected="RESET by LIMPHOME_PACE, once paused and once not",
+    injected="RESET by LIMPHOME_PACE, paused, not, and with the controller stopped",
     expected="the controller goes back to where the plant was last put back; the bytes of an undisturbed run",
 )
-def test_a_reset_costs_time_only(tmp_path, unwatched, observe):
-    seen = inside(run, str(tmp_path), "put_back", [])
+@pytest.mark.parametrize("person", ["put_back", "put_back_unseen"])
+def test_a_reset_costs_time_only(tmp_path, unwatched, person, observe):
+    seen = inside(run, str(tmp_path), person, [])
     assert seen["exit"] == 0, seen["words"]
     assert "begun anew; back to the end of episode" in seen["words"]
     assert_same_bytes(RunFolder(tmp_path / "run"), unwatched)
