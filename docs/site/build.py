@@ -25,6 +25,7 @@ PAGES = (
     "CMakePresets.json",
 )
 FOLDERS = ("config", "controller", "docs", "examples", "lcmtypes", "python", "robot", "scripts", "simulator", "test")
+SECTIONS = "briefdescription detaileddescription innerclass public-attrib define enum typedef func var"
 ROOMS = {
     "": "The controller: one call per decision",
     "base": "What all else uses: capacities, errors, vectors, random numbers",
@@ -65,7 +66,7 @@ def c_page():
                     f"### {name}",
                     "",
                     "```{doxygenfile} " + header.name,
-                    ":sections: briefdescription detaileddescription innerclass public-attrib define enum typedef func var",
+                    f":sections: {SECTIONS}",
                     "```",
                     "",
                 ]

@@ -48,9 +48,7 @@ def test_links_lead_somewhere(page):
 
 
 def test_equations_have_their_functions_and_tests():
-    rows = re.findall(
-        r"\[`(lh_\w+)`\]\((.*?)\) \| \[(\w+)\]\((.*?)\)", (ROOT / "docs" / "equations.md").read_text()
-    )
+    rows = re.findall(r"\[`(lh_\w+)`\]\((.*?)\) \| \[(\w+)\]\((.*?)\)", (ROOT / "docs" / "equations.md").read_text())
     assert len(rows) == 14
     for function, file, test, test_file in rows:
         assert re.search(rf"^[\w ]*\**{function}\(", (ROOT / "docs" / file).read_text(), re.MULTILINE), function

@@ -4,6 +4,7 @@ import shutil
 import subprocess
 import sys
 import sysconfig
+import tomllib
 import venv
 from pathlib import Path
 
@@ -12,6 +13,9 @@ import pytest
 from limphome_lab import network, paths, runfolder
 
 HERE = Path(sys.executable).parent  # has lcm-gen of the package lcm, as pip's own build environment would
+
+PROJECT = tomllib.loads((paths.ROOT / "pyproject.toml").read_text())["project"]
+COMMANDS = [name.removeprefix("limphome-") for name in PROJECT["scripts"]]
 
 
 @pytest.fixture(scope="module")
@@ -54,7 +58,7 @@ def test_package_and_messages_can_be_imported(installed, tmp_path):
     assert result.stdout.startswith(f"True {installed.parent}"), result.stderr
 
 
-@pytest.mark.parametrize("name", ["train", "evaluate", "launch", "spy", "plot", "study", "diagnose", "robot", "replay", "export"])
+@pytest.mark.parametrize("name", COMMANDS)
 def test_commands_go_by_their_own_names(installed, tmp_path, name):
     result = run(tmp_path, [installed / f"limphome-{name}", "--help"])
     assert result.returncode == 0, result.stderr

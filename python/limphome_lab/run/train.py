@@ -13,6 +13,7 @@ from limphome_lab.run.manifest import (
     recording_as_it_is,
     write_manifest,
 )
+from limphome_lab.run.outlook import outlook
 from limphome_lab.run.pair import Pair, SupervisedPair
 from limphome_lab.run.processes import Interrupted, raise_on_signals
 from limphome_lab.run.viewing import Viewing, add_argument
@@ -139,6 +140,8 @@ def run(args, viewing):
         print(f"done in {clock(part.wall_time_s)}: {paths.shown(folder.path)}", file=sys.stderr)
         if trouble := diagnose.in_a_line(folder):
             print(trouble, file=sys.stderr)
+        if not args.quiet:
+            print(*outlook(folder), sep="\n", file=sys.stderr)
     return code
 
 

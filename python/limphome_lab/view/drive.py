@@ -11,7 +11,8 @@ from limphome_lab.view.told import spoken
 
 BUTTON_HELD_S = 0.35  # a held button calls ten times a second
 KEY_HELD_S = 0.7  # a key repeats, but first after half a second
-KEYS = ("QA", "WS", "ED", "TG", "YH", "UJ", "IK", "OL")  # forward and reverse of each actuator
+# forward and reverse of each actuator; no other command has them
+KEYS = ("QA", "WS", "ED", "TG", "YB", "UJ", "IK", "OV")
 IN_CHARGE = {**hand.WORDS, None: "nothing is known of who drives"}
 
 

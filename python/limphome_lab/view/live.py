@@ -12,7 +12,7 @@ import numpy as np
 from limphome import decision_t, episode_t, pose_t, robot_state_t, status_t
 from limphome_lab import command, paths, registry, robot
 from limphome_lab.channels import DECISION, EPISODE, POSE, STATE, STATUS
-from limphome_lab.ending import Ending
+from limphome_lab.ending import InputError
 from limphome_lab.goal import goal
 from limphome_lab.run.viewing import JOINED
 from limphome_lab.runfolder import Episode, RunFolder
@@ -130,7 +130,7 @@ class Live:
         try:
             described = robot.read(folder.robot)
             settings = folder.settings()
-        except (Ending, OSError):
+        except (InputError, OSError):
             return  # it is being made, or has gone; the next look will tell
         if self.scene is not None:
             self.scene.remove()
@@ -148,7 +148,7 @@ class Live:
         self.curves.clear()
         self.drive.fit(described.actuators)
         self.episodes = []
-        with contextlib.suppress(Ending):  # its table is being begun, or is none
+        with contextlib.suppress(InputError):  # its table is being begun, or is none
             self.episodes = folder.read_episodes()
         for episode in self.episodes:
             self.curves.add_episode(episode.episode, episode.reward)

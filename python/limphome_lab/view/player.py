@@ -16,6 +16,8 @@ TEXT_S = 0.1  # between two times that text is brought up to date
 SPEEDS = {"1/4 x": 0.25, "1/2 x": 0.5, "1 x": 1.0, "2 x": 2.0, "4 x": 4.0, "10 x": 10.0}
 TERMS = ("motion", "goal", "stability", "tumble")  # of the reward
 PANEL_WIDTH = 380  # [px]
+REACH = 20.0  # [m] of the ground's lines
+FARTHER = 0.5  # the eye is at first, for each further run
 STEP_S = 0.01  # of the slider
 
 
@@ -30,8 +32,7 @@ class Player:
         self._told = float("-inf")
         stage.light(page.scene)
         self.runs = lanes(page.scene, folders)
-        for run in self.runs[1:]:
-            run.ground.hide_grid()
+        stage.put_lines(page.scene, [run.ground for run in self.runs], REACH)
         gui = page.gui
         gui.configure_theme(control_width="large", show_logo=False, show_share_button=False, brand_color=(31, 95, 168))
         gui.main_panel.dock_right()
@@ -46,6 +47,8 @@ class Player:
         self._pace = gui.add_markdown("")
         self.eye = Eye(page)
         self.eye.follow.value = False
+        farther = 1 + FARTHER * (len(self.runs) - 1)
+        page.initial_camera.position = farther * np.array(page.initial_camera.position)
         self._panels = [self._panel(gui, run) for run in self.runs]
         for panel in self._panels:
             panel.take(number)

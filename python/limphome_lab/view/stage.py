@@ -14,10 +14,14 @@ def light(scene):
     scene.configure_environment_map(hdri="city", environment_intensity=BRIGHTNESS)
 
 
-def add_lines(scene, reach):
-    """A grid round the page's origin, up to `reach` [m] to each side. viser's own, which has no end, fades with the
-    distance from the page's eye, not from that of a picture. In short pieces: long ones that end behind an eye are cut.
-    """
+def put_lines(scene, grounds, reach):
+    """Where all is level, a grid round the page's origin, up to `reach` [m] to each side, in place of viser's own: that
+    has no end, but fades with the distance from a run's origin, and in a picture by the page's eye, not its own."""
+    if not all(ground.level for ground in grounds):
+        return
+    for ground in grounds:
+        ground.hide_grid()
+    # in short pieces: long ones that end behind an eye are cut
     at = np.arange(-np.ceil(reach), np.ceil(reach) + 1, LINES_EVERY)
     begin, across = (each.ravel() for each in np.meshgrid(at[:-1], at))
     along = np.stack([np.column_stack([begin, across]), np.column_stack([begin + LINES_EVERY, across])], axis=1)

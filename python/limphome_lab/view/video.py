@@ -79,9 +79,8 @@ def prepare(scene, runs):
     for run in runs:
         for layer in ("labels", "centre of mass"):
             run.scene.set_shown(layer, False)
-        run.ground.hide_grid()
-    if all(run.ground.level for run in runs):
-        stage.add_lines(scene, LINES_REACH + max(np.abs(run.place(run.track.duration)).max() for run in runs))
+    reach = LINES_REACH + max(np.abs(run.place(run.track.duration)).max() for run in runs)
+    stage.put_lines(scene, [run.ground for run in runs], reach)
 
 
 def eyes_of(runs, name, times, width_to_height):

@@ -20,7 +20,9 @@ def parse_arguments():
     )
     parser.add_argument("run", metavar="RUN", nargs="?", help="run folder of the pair; default: whichever is running")
     parser.add_argument("--port", type=int, default=0, help="of the page; default: a free one")
-    parser.add_argument("--pid", type=int, help="show the pair of this process alone, and end after it")
+    parser.add_argument(
+        "--pid", type=int, help=argparse.SUPPRESS
+    )  # shows the pair of this process alone, and ends after it
     parser.add_argument("--joins", type=int, help=argparse.SUPPRESS)  # descriptor to tell on that it listens
     return parser.parse_args()
 
