@@ -7,6 +7,7 @@ sessions follow one another: the first keeps the plant's time, each later one be
 import sys
 
 from limphome_lab.channels import EPISODE, STATE
+from limphome_lab.ending import InputError
 from limphome_lab.messages import TYPES
 from limphome_lab.recording import TornRecording, read_placed
 
@@ -16,8 +17,8 @@ def timeline(path, told=lambda done: None):
     of an episode, never runs back. `told` is called with the bytes read so far.
 
     What is no message of ours is left out, and so is what follows the first event that is not whole, as a run under way
-    may end within one; that is told on stderr."""
-    clock = Clock()
+    may end within one; that is told on stderr. InputError where nothing is left."""
+    clock, found = Clock(), False
     try:
         for done, channel, data in read_placed(path):
             told(done)
@@ -27,9 +28,12 @@ def timeline(path, told=lambda done: None):
                     clock.see(message.session, message.utime, message.utime)
                 elif channel == EPISODE:  # the states before it may have been thinned out
                     clock.see(message.session, message.utime, message.utime - round(message.duration * 1e6))
+                found = True
                 yield clock.now, channel, message
     except TornRecording as torn:
         print(f"{torn}; what lies before is used", file=sys.stderr)
+    if not found:
+        raise InputError(f"{path}: holds no message of a run")
 
 
 def decoded(channel, data):

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from bus import REAL_TIME, Bus, controller, inside, settings
 
-from conftest import ROOT, TIME_LIMIT_S, start_script, wait_until
+from conftest import ROOT, TIME_LIMIT_S, run_script, start_script, wait_until
 from limphome import arm_request_t, status_t
 from limphome_lab import network, paths, registry
 from limphome_lab.channels import COMMAND, POSE, STATE
@@ -288,3 +288,8 @@ def test_driver_ends_where_its_adapter_is_gone(tmp_path, observe):
 def test_driver_says_what_is_wrong_with_its_words(arguments, says):
     result = subprocess.run([paths.program("can-driver"), *map(str, arguments)], capture_output=True, text=True)
     assert result.returncode == says[0] and says[1] in result.stderr
+
+
+def test_a_command_of_no_words_is_refused():
+    result = run_script("launch", "--driver", " ", check=False)
+    assert result.returncode == 2 and "--driver: names no program" in result.stderr

@@ -255,6 +255,14 @@ def test_run_without_an_episode_is_refused_and_nothing_left(smoke_run, tmp_path)
     assert list((begun.path / "export").iterdir()) == []
 
 
+@pytest.mark.parametrize("form", ["mcap", "parquet", "rosbag2"])
+def test_recording_that_holds_nothing_is_refused_and_nothing_left(smoke_run, tmp_path, form):
+    empty = copy(smoke_run, tmp_path / "run", lambda index, channel: False)
+    result = run_script("export", empty.path, "--format", form, check=False)
+    assert result.returncode == 2 and "messages.lcmlog: holds no message of a run" in result.stderr
+    assert list((empty.path / "export").iterdir()) == []
+
+
 def test_numbers_that_json_does_not_know_become_null(tmp_path):
     from limphome_lab.export.json_message import encode
 

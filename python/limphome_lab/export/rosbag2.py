@@ -32,7 +32,17 @@ def write(folder, out):
     fresh.mkdir(parents=True)
     scene = Scene(read(folder.robot))
     log = folder.messages
-    with Writer(fresh / bag.name, version=VERSION) as writer, Share("exporting", log.stat().st_size) as share:
+    try:
+        _record(log, scene, fresh / bag.name)
+        shutil.rmtree(bag, ignore_errors=True)
+        (fresh / bag.name).rename(bag)
+    finally:
+        shutil.rmtree(fresh, ignore_errors=True)
+    return [bag]
+
+
+def _record(log, scene, bag):
+    with Writer(bag, version=VERSION) as writer, Share("exporting", log.stat().st_size) as share:
         connections = {topic: writer.add_connection(topic, kind, typestore=ROS) for topic, kind in TOPICS.items()}
         last = None
         for time, channel, state in timeline(log, share.update):
@@ -41,10 +51,6 @@ def write(folder, out):
                 for topic, message in told(scene, time, state).items():
                     data = ROS.serialize_cdr(message, TOPICS[topic])
                     writer.write(connections[topic], time * 1000, data)
-    shutil.rmtree(bag, ignore_errors=True)
-    (fresh / bag.name).rename(bag)
-    fresh.rmdir()
-    return [bag]
 
 
 def told(scene, time, state):

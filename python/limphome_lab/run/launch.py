@@ -5,7 +5,7 @@ import sys
 import time
 
 from limphome_lab import command, network, paths, runfolder
-from limphome_lab.ending import with_exit_code
+from limphome_lab.ending import InputError, with_exit_code
 from limphome_lab.run.pair import Pair
 from limphome_lab.run.processes import raise_on_signals
 from limphome_lab.run.viewing import Viewing, add_argument
@@ -113,11 +113,14 @@ def launch(folder, url, options, arm, viewing, driver=None):
 @with_exit_code
 def main():
     args = parse_arguments()
+    driver = None if args.driver is None else shlex.split(args.driver)
+    if driver == []:
+        raise InputError("--driver: names no program")
     with Viewing(args.view) as viewing:
         url = network.enter(args.network)
         raise_on_signals()
         folder, options = make_folder(args)
-        launch(folder, url, options, args.arm, viewing, shlex.split(args.driver) if args.driver else None)
+        launch(folder, url, options, args.arm, viewing, driver)
     return 0
 
 

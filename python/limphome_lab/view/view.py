@@ -3,9 +3,8 @@
 import argparse
 import os
 import sys
-from pathlib import Path
 
-from limphome_lab import command
+from limphome_lab import command, runfolder
 from limphome_lab.ending import with_exit_code
 from limphome_lab.run.processes import raise_on_signals
 
@@ -20,9 +19,8 @@ def parse_arguments():
     )
     parser.add_argument("run", metavar="RUN", nargs="?", help="run folder of the pair; default: whichever is running")
     parser.add_argument("--port", type=int, default=0, help="of the page; default: a free one")
-    parser.add_argument(
-        "--pid", type=int, help=argparse.SUPPRESS
-    )  # shows the pair of this process alone, and ends after it
+    # of one that was started with its page: the process whose pair alone it shows, and after which it ends
+    parser.add_argument("--pid", type=int, help=argparse.SUPPRESS)
     parser.add_argument("--joins", type=int, help=argparse.SUPPRESS)  # descriptor to tell on that it listens
     return parser.parse_args()
 
@@ -34,7 +32,7 @@ def main():
     from limphome_lab.view import live  # viser takes a second to load
 
     os.nice(NICE)
-    run = None if args.run is None else Path(args.run).absolute()
+    run = None if args.run is None else runfolder.existing(args.run).path
     live.serve(run, args.port, args.pid, args.joins, lambda url: print(f"open {url}\nCtrl-C ends it", flush=True))
     return 0
 
