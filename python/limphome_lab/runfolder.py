@@ -124,11 +124,16 @@ def _check_header(path, header):
         raise InputError(f"{path}: the header is {header!r}, not {expected!r}")
 
 
-def existing(path, *needed):
-    """The run folder at `path`, or InputError where one of the `needed` files (attributes' names) is missing."""
+def named(path):
+    """The path itself, or InputError where it is empty, as a variable of the shell that was not set is."""
     if not str(path):
         raise InputError("the name of a run folder is empty")
-    folder = RunFolder(path)
+    return path
+
+
+def existing(path, *needed):
+    """The run folder at `path`, or InputError where one of the `needed` files (attributes' names) is missing."""
+    folder = RunFolder(named(path))
     for name in ("config", "robot", *needed):
         file = getattr(folder, name)
         try:

@@ -278,7 +278,11 @@ def test_real_time_without_an_operator(short_run, tmp_path, observe, name):
     observe("exit code 2")
 
 
-@pytest.mark.parametrize("command", [("train", "--resume"), ("evaluate",), ("plot",), ("diagnose",)], ids=" ".join)
+@pytest.mark.parametrize(
+    "command",
+    [("train", "--resume"), ("evaluate",), ("plot",), ("compare",), ("results",), ("diagnose",)],
+    ids=" ".join,
+)
 def test_run_folder_without_a_name(tmp_path, command):
     result = run_script(*command, "", check=False)
     assert_refused(result, tmp_path / "run", ["the name of a run folder is empty"])

@@ -14,7 +14,9 @@ def parse_arguments():
         "episode. Of several runs: how learning went and the terms of the reward: every seed, medians and quartiles.",
         "runs/default-seed1-20250131-120000 --value-map boom,arm --paper",
     )
-    parser.add_argument("runs", metavar="RUN", nargs="+", help="run folder; of several, folders of such, too")
+    parser.add_argument(
+        "runs", metavar="RUN", nargs="+", type=runfolder.named, help="run folder; of several, folders of such, too"
+    )
     parser.add_argument("--episode", type=int, help="of one run: which is drawn by its decisions; default the last")
     parser.add_argument(
         "--value-map",

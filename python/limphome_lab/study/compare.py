@@ -7,7 +7,7 @@ import textwrap
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from limphome_lab import command, paths
+from limphome_lab import command, paths, runfolder
 from limphome_lab.ending import with_exit_code
 from limphome_lab.show import experiments, learned
 from limphome_lab.show.summary import quartiles
@@ -166,7 +166,9 @@ def parse_arguments():
         "in which it differs from the others.",
         "runs/default-seed* runs/paper-seed* --figures compared",
     )
-    parser.add_argument("runs", metavar="RUN", nargs="+", help="run folder, folder of such, or folder of a study")
+    parser.add_argument(
+        "runs", metavar="RUN", nargs="+", type=runfolder.named, help="run folder, folder of such, or folder of a study"
+    )
     parser.add_argument(
         "--hard",
         action="store_true",

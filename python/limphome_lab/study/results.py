@@ -249,7 +249,9 @@ def main():
         "of by itself.",
         "runs/paper-seed* --out results",
     )
-    parser.add_argument("runs", metavar="RUN", nargs="+", help="run folder, folder of such, or folder of a study")
+    parser.add_argument(
+        "runs", metavar="RUN", nargs="+", type=runfolder.named, help="run folder, folder of such, or folder of a study"
+    )
     parser.add_argument("--out", metavar="DIR", default="results", help="folder for the page; default results")
     args = parser.parse_args()
     found, passed_over = experiments.find(args.runs)
