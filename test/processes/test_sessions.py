@@ -17,11 +17,12 @@ SHORT = ["learning.episodes=6", "episode.step_limit=40", "episode.reset_every=3"
 
 def two_controllers(folder):
     """The second comes while the first trains, and is never obeyed."""
+    patient = [*SHORT[:-1], "link.sender_timeout_s=2"]  # longer than a machine that does much else stands still
     with Bus(folder) as bus:
-        bus.start(simulator(*SHORT))
-        first = bus.start(controller(f"{folder}/first", *SHORT, "learning.episodes=100000"))
+        bus.start(simulator(*patient))
+        first = bus.start(controller(f"{folder}/first", *patient, "learning.episodes=100000"))
         bus.until(lambda: bus.counts[COMMAND] > 50)
-        second = bus.start(controller(f"{folder}/second", *SHORT, "link.give_up_s=2"))
+        second = bus.start(controller(f"{folder}/second", *patient, "link.give_up_s=4"))
         bus.until(lambda: not second.running())
         senders = {state.reset_sender for state in bus.states} - {0}
         last = [status for status in bus.statuses[status_t.CONTROLLER] if status.condition == status_t.FAULT][-1:]
