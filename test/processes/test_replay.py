@@ -142,10 +142,6 @@ def test_video_shows_the_robot_move(smoke_run, tmp_path):
     assert (moved[: int(driving) - 1] > 20).all(), "each picture is another"
     # the page brings lines and belts, unlike where things are, up to date in a later picture
     assert (moved[int(driving) + 5 :] < 20).all(), "and at the end it stands"
-    red, green, blue = np.moveaxis(both[:, :, :96], -1, 0)
-    assert ((green < 0.65 * red) & (blue < 0.5 * red)).any(), (
-        "the failed crawler is seen from the corner; no arm is so red"
-    )
     assert [each.name for each in tmp_path.iterdir()] == [file.name]
 
 
