@@ -1,13 +1,12 @@
 """scripts/view in a browser: what is seen there is what the run does, and what is pressed there happens to it."""
 
 import json
-import os
 import re
-import shutil
 import signal
 import time
 
 import pytest
+from browsing import SLOW_MS, Page
 
 from conftest import SMOKE, TIME_LIMIT_S, processes_that_mention, start_script, wait_until
 from limphome import pace_t, pose_t
@@ -18,27 +17,8 @@ from limphome_lab.run import hand
 from limphome_lab.view.feed import Feed
 from limphome_lab.view.operate import ASKED, TOLD
 
-SLOW_MS = 120_000  # a browser that draws without a graphics card takes its time
-ARGUMENTS = [  # drawing by the processor, and nothing that talks to the outside
-    *("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run"),
-    *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
-]
 PERIOD_S = 0.5
 SWING = 2  # actuator
-
-
-@pytest.fixture
-def browser():
-    program = shutil.which("chromium")
-    if program is None:
-        pytest.skip("chromium is not installed; scripts/test does it")
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as playwright:
-        root = ["--no-sandbox"] if os.geteuid() == 0 else []
-        browser = playwright.chromium.launch(executable_path=program, args=[*ARGUMENTS, *root])
-        yield browser
-        browser.close()
 
 
 @pytest.fixture
@@ -110,29 +90,7 @@ def test_a_feed_takes_the_robot_by_hand_and_gives_it_back(tmp_path, monkeypatch)
         process.communicate(timeout=TIME_LIMIT_S)
 
 
-class Page:
-    def __init__(self, browser, address):
-        self.foreign = []  # requests to elsewhere
-        self.page = browser.new_page(viewport={"width": 760, "height": 420})
-        self.page.set_default_timeout(SLOW_MS)
-        self.page.on("request", lambda request: self._look(request.url, address))
-        self.page.goto(address)
-
-    def _look(self, url, address):
-        if not url.startswith((address, f"blob:{address[: address.index('/', 8)]}", "data:")):
-            self.foreign.append(url)
-
-    def find(self, pattern):
-        """Groups of a pattern in the page's text, once it is there."""
-        deadline = time.monotonic() + SLOW_MS / 1000
-        while not (found := re.search(pattern, self.page.inner_text("body"))):
-            assert time.monotonic() < deadline, f"{pattern} is not in:\n{self.page.inner_text('body')}"
-            time.sleep(0.1)
-        return found.groups()
-
-    def press(self, label):
-        self.page.get_by_text(label).first.dispatch_event("click")
-
+class Live(Page):
     def plant_time(self):
         return float(self.find(r"plant time ([\d.]+) s")[0])
 
@@ -145,13 +103,10 @@ class Page:
         time.sleep(0.5)
         return self.plant_time()
 
-    def picture(self):
-        return self.page.locator("canvas").first.screenshot(timeout=SLOW_MS, animations="allow")
-
 
 def test_what_the_page_shows_and_what_is_pressed_in_it(training, browser, tmp_path):
     process, run, address = training
-    page = Page(browser, address)
+    page = Live(browser, address)
     page.find(r"4 times real time")  # as it begins where a page was asked for
 
     page.press("Pause")
