@@ -5,7 +5,6 @@ import json
 import sys
 import textwrap
 from dataclasses import asdict, dataclass
-from pathlib import Path
 
 from limphome_lab import command, paths, runfolder
 from limphome_lab.ending import with_exit_code
@@ -151,12 +150,10 @@ def write_csv(found, stream):
 
 def draw(grouped, found, out, paper):
     """The figures, in the folder `out`; returns their files."""
-    from limphome_lab.show.figures import courses, sides, style
+    from limphome_lab.show import figures
+    from limphome_lab.show.figures import courses, sides
 
-    out = Path(out)
-    out.mkdir(parents=True, exist_ok=True)
-    figures = {"compared": sides.draw(grouped, found), "courses": courses.draw(grouped)}
-    return [file for name, figure in figures.items() for file in style.save_all(figure, out / f"{name}.png", paper)]
+    return figures.save({"compared": sides.draw(grouped, found), "courses": courses.draw(grouped)}, out, paper)
 
 
 def parse_arguments():

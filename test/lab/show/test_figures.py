@@ -84,7 +84,7 @@ def test_colours_can_be_told_apart_by_the_colour_blind(blindness):
 
 
 def test_a_figure_for_a_paper_is_as_wide_as_a_column_or_a_page():
-    for width, target in ((7.2, style.COLUMN), (16, style.PAGE)):
+    for width, target in ((7.2, paper.COLUMN), (16, paper.PAGE)):
         figure, axes = plt.subplots(figsize=(width, 4), layout="constrained")
         axes.set_title("A title that belongs into the caption of a paper")
         axes.plot([0, 1], label="a line")

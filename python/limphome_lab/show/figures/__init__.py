@@ -3,8 +3,11 @@ those that are drawn on demand."""
 
 from pathlib import Path
 
+import matplotlib.pyplot as plt
+
 from limphome_lab.messages import episode_states, last_session
 from limphome_lab.show.figures import learning, motion, path, reward, style, trajectories
+from limphome_lab.show.figures.paper import save_for_paper
 
 FIRST, LAST = 0, -1  # as episode_states understands them
 
@@ -37,7 +40,14 @@ def figures(folder):
 
 
 def save(drawn, out, paper=False):
-    """Saves {name: figure} into a folder, for a paper as well; returns the files."""
+    """Saves {name: figure} into a folder, for a screen, and for a paper in paper/ there; returns the files."""
     out = Path(out)
     out.mkdir(parents=True, exist_ok=True)
-    return [file for name, figure in drawn.items() for file in style.save_all(figure, out / f"{name}.png", paper)]
+    files = []
+    for name, figure in drawn.items():
+        files.append(out / f"{name}.png")
+        figure.savefig(files[-1], dpi=style.DPI)
+        if paper:
+            files += save_for_paper(figure, out / "paper", name)
+        plt.close(figure)
+    return files

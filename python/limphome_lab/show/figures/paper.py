@@ -5,20 +5,30 @@ from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
-from limphome_lab.show.figures import style
-
+DPI = 300
+COLUMN, PAGE = 3.35, 7.0  # widths: one column (85 mm), both (178 mm) [in]
 WIDEST_OF_A_COLUMN = 9.0  # on the screen [in]; what is wider takes both columns
 FONT, SMALL = 8, 7  # [pt]
 TALLER = 1.4  # letters do not shrink with the axes
 LETTER = 0.55  # width of one in sizes of the font, at the mean
 
 
+def save_for_paper(figure, out, name):
+    """The figure as PDF and PNG in the folder `out`; returns the files."""
+    fit(figure)
+    out.mkdir(exist_ok=True)
+    files = [out / f"{name}.{form}" for form in ("pdf", "png")]
+    for file in files:
+        figure.savefig(file, dpi=DPI)
+    return files
+
+
 def fit(figure):
     """Without its title, as captions have that; letters, lines and marks in sizes that can be read in print."""
     width, height = figure.get_size_inches()
-    target = style.COLUMN if width <= WIDEST_OF_A_COLUMN else style.PAGE
+    target = COLUMN if width <= WIDEST_OF_A_COLUMN else PAGE
     shrunk = target / width
-    figure.set_size_inches(target, height * shrunk * (TALLER if target == style.COLUMN else 1.1))
+    figure.set_size_inches(target, height * shrunk * (TALLER if target == COLUMN else 1.1))
     figure.suptitle("").set_in_layout(False)
     panels = figure.axes
     for axes in panels:

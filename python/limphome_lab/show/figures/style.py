@@ -7,7 +7,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-DPI, PAPER_DPI = 150, 300
+DPI = 150
 INK = "#222222"
 FAINT = "#9aa5b1"  # single episodes, references
 # of Okabe and Ito, whom people with any kind of colour blindness can follow
@@ -22,7 +22,6 @@ DASHES = ("-", "--", "-.", ":")  # for a second round of colours
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 
 MEDIAN_WINDOW = 51  # episodes, of a run that is long enough
-COLUMN, PAGE = 3.35, 7.0  # widths in a paper: one column (85 mm), both (178 mm) [in]
 
 plt.rcParams.update(
     {
@@ -59,23 +58,6 @@ def save(figure, path):
     figure.savefig(path, dpi=DPI)
     plt.close(figure)
     return path
-
-
-def save_all(figure, path, paper=False):
-    """The figure as `path`, a PNG for the screen; for a paper besides, in paper/ beside it, as PDF and PNG."""
-    files = [path]
-    figure.savefig(path, dpi=DPI)
-    if paper:
-        from limphome_lab.show.figures.paper import fit
-
-        fit(figure)
-        folder = path.parent / "paper"
-        folder.mkdir(exist_ok=True)
-        files += [folder / f"{path.stem}.pdf", folder / path.name]
-        for file in files[1:]:
-            figure.savefig(file, dpi=PAPER_DPI)
-    plt.close(figure)
-    return files
 
 
 def window(count):
