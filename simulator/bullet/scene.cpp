@@ -69,7 +69,11 @@ void Pipeline::solveConstraints(btContactSolverInfo &info) {
     body_touches_.find(robot_, touches_);
     contacts.swap(previous_);
     make_contacts(robot_, ground_, touches_, previous_, contacts);
-    solver_.solve(robot_.multibody(), joints, contacts, info.m_timeStep);
+    btMultiBody &multibody = robot_.multibody();
+    const GeneralMatrix mass = mass_matrix(multibody);
+    const GeneralVector before = velocities(multibody);
+    const GeneralVector change = solver_.solve(mass, mass * before, joints, contacts, info.m_timeStep) - before;
+    multibody.applyDeltaVeeMultiDof(change.data(), 1);
 }
 
 Scene::Scene(const RobotModel &model, const settings &s, const Ground &ground, const std::vector<Failure> &failures,
