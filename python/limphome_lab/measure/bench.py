@@ -100,7 +100,7 @@ def decision():
 
 
 def planner_decision():
-    """What a step did taken in, ten postures backed up, and two steps looked ahead, in the library and in plain loops."""
+    """What a step did taken in, ten postures backed up, two steps looked ahead: in the library and in plain loops."""
     for suffix, flags in BUILDS.items():
         seconds = decision_times(f"bench_planner_{suffix.lstrip('_') or 'O2'}")
         for way in ("plain_single", "plain_double"):
