@@ -27,61 +27,94 @@ enum option_code {
     VERSION
 };
 
-/* Options of the controller alone come last, so that the simulator's list is the same one cut short. */
-static const struct option controller_options[] = {
-    {"config", required_argument, NULL, CONFIG},
-    {"set", required_argument, NULL, SET},
-    {"robot", required_argument, NULL, ROBOT},
-    {"packages", required_argument, NULL, PACKAGES},
-    {"lcm-url", required_argument, NULL, LCM_URL},
-    {"check", no_argument, NULL, CHECK},
-    {"help", no_argument, NULL, HELP},
-    {"help-settings", no_argument, NULL, HELP_SETTINGS},
-    {"print-settings", no_argument, NULL, PRINT_SETTINGS},
-    {"version", no_argument, NULL, VERSION},
-    {"out", required_argument, NULL, OUT},
-    {"resume", no_argument, NULL, RESUME},
-    {"evaluate", required_argument, NULL, EVALUATE},
-    {"list-meshes", no_argument, NULL, LIST_MESHES},
-    {NULL, 0, NULL, 0},
+/* Which programs take an option. */
+enum {
+    PLANT = 1 << COMMAND_LINE_SIMULATOR,
+    CONTROLLER = 1 << COMMAND_LINE_CONTROLLER,
+    PAIR = 1 << COMMAND_LINE_PAIR,
+    ALL = PLANT | CONTROLLER | PAIR
 };
-enum { SHARED_OPTIONS = 10 };
+
+static const struct program_option {
+    struct option option;
+    int programs;
+} known_options[] = {
+    {{"config", required_argument, NULL, CONFIG}, ALL},
+    {{"set", required_argument, NULL, SET}, ALL},
+    {{"robot", required_argument, NULL, ROBOT}, ALL},
+    {{"packages", required_argument, NULL, PACKAGES}, ALL},
+    {{"lcm-url", required_argument, NULL, LCM_URL}, PLANT | CONTROLLER},
+    {{"check", no_argument, NULL, CHECK}, ALL},
+    {{"help", no_argument, NULL, HELP}, ALL},
+    {{"help-settings", no_argument, NULL, HELP_SETTINGS}, ALL},
+    {{"print-settings", no_argument, NULL, PRINT_SETTINGS}, ALL},
+    {{"version", no_argument, NULL, VERSION}, ALL},
+    {{"out", required_argument, NULL, OUT}, CONTROLLER | PAIR},
+    {{"resume", no_argument, NULL, RESUME}, CONTROLLER | PAIR},
+    {{"evaluate", required_argument, NULL, EVALUATE}, CONTROLLER | PAIR},
+    {{"list-meshes", no_argument, NULL, LIST_MESHES}, CONTROLLER},
+};
+enum { KNOWN_OPTIONS = sizeof known_options / sizeof known_options[0] };
 
 static const char shared_help[] =
     "  --config FILE            settings of the experiment (INI); without it, the paper's\n"
     "  --set section.key=value  one setting, over those of the file; may be repeated\n"
     "  --robot FILE             the robot (URDF); default crawler.urdf\n"
     "  --packages DIR[:DIR]     where package:// of the robot's meshes is looked for; then in the folders above FILE\n"
-    "  --lcm-url URL            bus to talk on; default $LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0\n"
     "  --check                  read all that is given, tell what is wrong with it, and exit; nothing is written\n"
     "  --print-settings         print all settings as resolved, as an INI file, and exit\n"
     "  --help-settings          print every setting with range, default and meaning, and exit\n"
     "  --version                print the version and exit\n"
     "  --help                   print this and exit\n";
 
+static const char bus_help[] =
+    "  --lcm-url URL            bus to talk on; default $LCM_DEFAULT_URL, else udpm://239.255.76.67:7667?ttl=0\n";
+
 static const char files_help[] =
     "A FILE named without a folder is looked for in the working directory, then in ../share/limphome/config, seen "
     "from\n"
     "the program's folder. The default robot is looked for there first, then in config/ of the working directory.\n";
 
-static const char controller_help[] =
+static const char run_help[] =
     "  --out DIR                write the run folder: episodes.csv, policy.lcm, checkpoint/, messages.lcmlog\n"
     "  --resume                 go on from the newest good checkpoint in DIR; with --check, tell which\n"
-    "  --evaluate POLICY        drive with a learned policy, without learning, [learning] episodes more\n"
+    "  --evaluate POLICY        drive with a learned policy, without learning, [learning] episodes more\n";
+
+static const char meshes_help[] =
     "  --list-meshes            print the files that the robot file needs besides, a line each: where a copy is found\n"
     "                           first, seen from its folder, a tab, and the path; and exit\n";
 
 static const char *program_name(command_line_program program) {
-    return program == COMMAND_LINE_CONTROLLER ? "limphome-controller" : "limphome-simulator";
+    switch (program) {
+        case COMMAND_LINE_CONTROLLER:
+            return "limphome-controller";
+        case COMMAND_LINE_PAIR:
+            return "limphome-pair";
+        case COMMAND_LINE_SIMULATOR:
+        default:
+            return "limphome-simulator";
+    }
+}
+
+static const char *purpose(command_line_program program) {
+    switch (program) {
+        case COMMAND_LINE_CONTROLLER:
+            return "learns to move a robot with a failed crawler, or moves it with what was learned";
+        case COMMAND_LINE_PAIR:
+            return "limphome-controller and limphome-simulator in one process: the same run in less time, which nobody "
+                   "can watch";
+        case COMMAND_LINE_SIMULATOR:
+        default:
+            return "simulates the robot behind the messages a real one would speak";
+    }
 }
 
 static void print_help(command_line_program program) {
-    const bool controller = program == COMMAND_LINE_CONTROLLER;
-    printf("%s: %s\n\nusage: %s [options]\n\n%s%s\n%sSIGINT, SIGTERM and SIGHUP end it cleanly.\n",
-           program_name(program),
-           controller ? "learns to move a robot with a failed crawler, or moves it with what was learned"
-                      : "simulates the robot behind the messages a real one would speak",
-           program_name(program), shared_help, controller ? controller_help : "", files_help);
+    const char *name = program_name(program);
+    printf("%s: %s\n\nusage: %s [options]\n\n%s%s%s%s\n%sSIGINT, SIGTERM and SIGHUP end it cleanly.\n", name,
+           purpose(program), name, shared_help, program == COMMAND_LINE_PAIR ? "" : bus_help,
+           program == COMMAND_LINE_SIMULATOR ? "" : run_help, program == COMMAND_LINE_CONTROLLER ? meshes_help : "",
+           files_help);
 }
 
 /* What was asked for has been printed; BAD, having said so, where it did not get there. */
@@ -159,12 +192,20 @@ static bool take(command_line *line, int code) {
     }
 }
 
-command_line_result command_line_parse(int argc, char **argv, command_line_program program, command_line *line) {
-    struct option options[sizeof controller_options / sizeof controller_options[0]];
-    memcpy(options, controller_options, sizeof options);
-    if (program == COMMAND_LINE_SIMULATOR) {
-        memset(&options[SHARED_OPTIONS], 0, sizeof options[0]);
+/* Those that it takes, and an end. */
+static void options_of(command_line_program program, struct option options[KNOWN_OPTIONS + 1]) {
+    int count = 0;
+    for (int i = 0; i < KNOWN_OPTIONS; i++) {
+        if (known_options[i].programs & 1 << program) {
+            options[count++] = known_options[i].option;
+        }
     }
+    options[count] = (struct option){0};
+}
+
+command_line_result command_line_parse(int argc, char **argv, command_line_program program, command_line *line) {
+    struct option options[KNOWN_OPTIONS + 1];
+    options_of(program, options);
     memset(line, 0, sizeof *line);
     process_prepare_streams();
     const char *config = NULL, *robot = NULL;

@@ -1,4 +1,4 @@
-/* The command line that both programs share: --config, --set, --robot, --lcm-url and what prints and exits. */
+/* The command line that the programs share: --config, --set, --robot, --lcm-url and what prints and exits. */
 #ifndef LIMPHOME_COMMAND_LINE_H
 #define LIMPHOME_COMMAND_LINE_H
 
@@ -16,16 +16,20 @@ typedef struct command_line {
     const char *robot;        /* --robot, a URDF file; may point to own_robot */
     const char *packages;     /* --packages, folders for package://, separated by ':', or NULL */
     const char *lcm_url;      /* --lcm-url; NULL: LCM's own default, which follows LCM_DEFAULT_URL */
-    const char *out;          /* controller: --out, the run folder, or NULL */
-    const char *evaluate;     /* controller: --evaluate, a policy file, or NULL */
-    bool resume;              /* controller: --resume */
+    const char *out;          /* but for the simulator: --out, the run folder, or NULL */
+    const char *evaluate;     /* likewise: --evaluate, a policy file, or NULL */
+    bool resume;              /* likewise: --resume */
     bool list_meshes;         /* controller: --list-meshes: print them and exit */
     bool check;               /* --check: read and check all, and exit */
     char own_robot[CONFIG_PATH_LENGTH];
 } command_line;
 
 /* Which program asks. */
-typedef enum command_line_program { COMMAND_LINE_CONTROLLER, COMMAND_LINE_SIMULATOR } command_line_program;
+typedef enum command_line_program {
+    COMMAND_LINE_CONTROLLER,
+    COMMAND_LINE_SIMULATOR,
+    COMMAND_LINE_PAIR
+} command_line_program;
 
 typedef enum command_line_result {
     COMMAND_LINE_RUN,  /* go on */

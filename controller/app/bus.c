@@ -2,7 +2,6 @@
 
 #include <errno.h>
 #include <math.h>
-#include <poll.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/random.h>
@@ -102,22 +101,15 @@ void bus_close(bus *b) {
     udpm_close(&b->lcm);
 }
 
-/* Whether a message can be handled without waiting longer than `milliseconds`; -1 on an error other than a signal. */
-static int readable(bus *b, int milliseconds) {
-    struct pollfd waiting = {.fd = udpm_fileno(&b->lcm), .events = POLLIN};
-    const int count = poll(&waiting, 1, milliseconds);
-    return count < 0 && errno == EINTR ? 0 : count;
-}
-
 bool bus_wait(bus *b, double timeout) {
     const double begin = bus_now();
-    int ready = readable(b, (int)ceil(timeout * 1000));
+    int ready = udpm_wait(&b->lcm, (int)ceil(timeout * 1000));
     b->wait_time += bus_now() - begin;
     for (int handled = 0; ready > 0 && handled < MOST_MESSAGES; handled++) {
         if (!udpm_handle(&b->lcm)) {
             return false;
         }
-        ready = readable(b, 0);
+        ready = udpm_wait(&b->lcm, 0);
     }
     b->counts.overruns += ready > 0;
     return ready >= 0;

@@ -106,7 +106,17 @@ bool udpm_open(udpm *bus, const char *url, char error[ERROR_LENGTH]) {
     return fail_with(error, "%.200s: cannot join the bus: %.280s", url, reason);
 }
 
+void udpm_join(udpm *waiting, udpm *other, void (*work)(void *user), void *user) {
+    waiting->other = other;
+    waiting->other_works = work;
+    waiting->other_user = user;
+    other->other = waiting;
+}
+
 void udpm_close(udpm *bus) {
+    if (bus->other != NULL) {
+        bus->other->other = NULL;
+    }
     if (bus->receiver >= 0) {
         close(bus->receiver);
     }
@@ -133,7 +143,27 @@ int udpm_fileno(const udpm *bus) {
     return bus->receiver;
 }
 
-/* Hands a datagram that is a message to whoever subscribed to its channel. */
+/* Hands a message to whoever subscribed to its channel; whether anybody has. */
+static bool hand_over(udpm *bus, const char *channel, void *data, size_t size) {
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    const lcm_recv_buf_t buffer = {
+        .data = data,
+        .data_size = (uint32_t)size,
+        .recv_utime = (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000,
+    };
+    bool heard = false;
+    for (int i = 0; i < bus->num_subscriptions; i++) {
+        const struct udpm_subscription *subscription = &bus->subscriptions[i];
+        if (strcmp(subscription->channel, channel) == 0) {
+            subscription->handler(&buffer, subscription->channel, subscription->user);
+            heard = true;
+        }
+    }
+    return heard;
+}
+
+/* Takes a datagram for a message, if it is one. */
 static void deliver(udpm *bus, size_t size) {
     if (size < UDPM_HEADER_SIZE || memcmp(bus->datagram, UDPM_MAGIC, UDPM_MAGIC_SIZE) != 0) {
         return;
@@ -144,18 +174,27 @@ static void deliver(udpm *bus, size_t size) {
     if (length == left) {
         return; /* the name has no end */
     }
-    struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
-    const lcm_recv_buf_t buffer = {
-        .data = bus->datagram + UDPM_HEADER_SIZE + length + 1,
-        .data_size = (uint32_t)(left - length - 1),
-        .recv_utime = (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000,
-    };
-    for (int i = 0; i < bus->num_subscriptions; i++) {
-        if (strcmp(bus->subscriptions[i].channel, name) == 0) {
-            bus->subscriptions[i].handler(&buffer, bus->subscriptions[i].channel, bus->subscriptions[i].user);
-        }
+    hand_over(bus, name, bus->datagram + UDPM_HEADER_SIZE + length + 1, left - length - 1);
+}
+
+/* The other has spoken before, or by now. */
+static int wait_for_other(udpm *bus, int milliseconds) {
+    if (bus->other_works != NULL) {
+        bus->other_works(bus->other_user);
+    } else if (!bus->spoken_to) {
+        poll(NULL, 0, milliseconds);
     }
+    bus->spoken_to = false;
+    return 0;
+}
+
+int udpm_wait(udpm *bus, int milliseconds) {
+    if (bus->other != NULL) {
+        return wait_for_other(bus, milliseconds);
+    }
+    struct pollfd waiting = {.fd = bus->receiver, .events = POLLIN};
+    const int count = poll(&waiting, 1, milliseconds);
+    return count < 0 && errno == EINTR ? 0 : count;
 }
 
 bool udpm_handle(udpm *bus) {
@@ -167,7 +206,19 @@ bool udpm_handle(udpm *bus) {
     return true;
 }
 
+static bool publish_to_other(udpm *other, const char *channel, const void *data, int size) {
+    if (size < 0 || (size_t)size > sizeof other->datagram) {
+        return false;
+    }
+    memcpy(other->datagram, data, (size_t)size);
+    other->spoken_to = hand_over(other, channel, other->datagram, (size_t)size) || other->spoken_to;
+    return true;
+}
+
 bool udpm_publish(udpm *bus, const char *channel, const void *data, int size) {
+    if (bus->other != NULL) {
+        return publish_to_other(bus->other, channel, data, size);
+    }
     unsigned char datagram[UDPM_DATAGRAM_SIZE];
     const size_t begin = UDPM_HEADER_SIZE + strlen(channel) + 1;
     if (begin > UDPM_HEADER_SIZE + UDPM_CHANNEL_LENGTH + 1 || begin + (size_t)size > sizeof datagram) {

@@ -31,6 +31,10 @@ typedef void udpm_handler(const lcm_recv_buf_t *buffer, const char *channel, voi
 typedef struct udpm {
     int receiver;
     int sender;
+    struct udpm *other; /* who alone hears what is sent here, within this process; NULL: the network does */
+    void (*other_works)(void *user); /* lets it */
+    void *other_user;
+    bool spoken_to;    /* by the other, since we have waited */
     bool filtered;     /* the kernel does so for the receiver */
     uint32_t next_seq; /* of datagrams sent; LCM counts them so */
     int num_subscriptions;
@@ -51,12 +55,22 @@ bool udpm_open(udpm *bus, const char *url, char error[ERROR_LENGTH]);
 
 void udpm_close(udpm *bus);
 
+/* Makes of two queues (memq://), with a subscription or without, one bus within this thread, on which the two hear each
+ * other: what one publishes has been handled by the other when udpm_publish returns, and nothing is queued.
+ * So a handler must not publish. Where `waiting` waits, `work` is called with `user`, once, for the other to do
+ * something that can be waited for. Both must stay where they are until either is closed. */
+void udpm_join(udpm *waiting, udpm *other, void (*work)(void *user), void *user);
+
 /* Has `handler` called from udpm_handle for each message on `channel`. False if the name is too long, or for one
  * subscription too many. */
 bool udpm_subscribe(udpm *bus, const char *channel, udpm_handler *handler, void *user);
 
 /* Descriptor that is readable when there is something to handle. */
 int udpm_fileno(const udpm *bus);
+
+/* Waits at most so long for something to handle. 1: it is there; 0: it is not, or has been handled, as on a bus within
+ * a thread; -1: the bus is broken, and errno tells why. */
+int udpm_wait(udpm *bus, int milliseconds);
 
 /* Takes in one datagram, if there is one, without waiting. False if the bus is broken. */
 bool udpm_handle(udpm *bus);

@@ -47,8 +47,12 @@ class Bus {
 
     // Descriptor that is readable when there is something to handle.
     int getFileno() const { return udpm_fileno(&bus_); }
+    // Waits at most so long for something to handle: udpm_wait.
+    int wait(int milliseconds) { return udpm_wait(&bus_, milliseconds); }
     // Takes in one datagram, if there is one; 0, or else the bus is broken.
     int handle() { return udpm_handle(&bus_) ? 0 : -1; }
+    // The same in C.
+    udpm *in_c() { return &bus_; }
 
    private:
     using Handler = std::function<void(const lcm::ReceiveBuffer &)>;

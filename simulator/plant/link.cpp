@@ -2,8 +2,6 @@
 
 #include <limphome_channels.h>
 
-#include <poll.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -133,17 +131,16 @@ void Link::send_status(status_t status) {
 
 void Link::wait(double timeout) {
     const double begin = monotonic_now();
-    pollfd bus{lcm_.getFileno(), POLLIN, 0};
-    int ready = poll(&bus, 1, static_cast<int>(std::ceil(timeout * 1000)));
+    int ready = lcm_.wait(static_cast<int>(std::ceil(timeout * 1000)));
     wait_time_ += monotonic_now() - begin;
     for (int handled = 0; ready > 0 && handled < most_messages; handled++) {
         if (lcm_.handle() != 0) {
             throw std::runtime_error("the bus is broken: a message that is there cannot be read");
         }
-        ready = poll(&bus, 1, 0);
+        ready = lcm_.wait(0);
     }
     counts_.overruns += ready > 0 ? 1 : 0;
-    if (ready < 0 && errno != EINTR) {
+    if (ready < 0) {
         throw std::runtime_error("the bus is broken: " + reason());
     }
 }

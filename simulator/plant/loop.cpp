@@ -65,29 +65,43 @@ bool Loop::run(const volatile std::sig_atomic_t *stop) {
 }
 
 bool Loop::follow(const volatile std::sig_atomic_t *stop) {
-    const bool lockstep = settings_.simulator.pace == SETTINGS_LOCKSTEP;
+    start(stop);
+    while (*stop == 0) {
+        if (!pass()) {
+            return false;
+        }
+    }
+    end();
+    return true;
+}
+
+void Loop::start(const volatile std::sig_atomic_t *stop) {
     stop_ = stop;
     begin();
-    while (*stop == 0) {
-        if (link_.pace().take_reset()) {
-            begin_anew();
-        } else if (const auto request = link_.take_reset()) {
-            faults_in_a_row_ = session_decisions_ > 0 ? 0 : faults_in_a_row_;
-            episode_ = request->episode;
-            restart(request);
-        } else if (lockstep ? advance_lockstep() : advance_real_time()) {
-            decisions_++;
-            session_decisions_++;
-            if (!machine_.diverged()) {
-                publish();
-            } else if (!recover()) {
-                return false;
-            }
+}
+
+bool Loop::pass() {
+    if (link_.pace().take_reset()) {
+        begin_anew();
+    } else if (const auto request = link_.take_reset()) {
+        faults_in_a_row_ = session_decisions_ > 0 ? 0 : faults_in_a_row_;
+        episode_ = request->episode;
+        restart(request);
+    } else if (settings_.simulator.pace == SETTINGS_LOCKSTEP ? advance_lockstep() : advance_real_time()) {
+        decisions_++;
+        session_decisions_++;
+        if (!machine_.diverged()) {
+            publish();
+        } else if (!recover()) {
+            return false;
         }
-        tell();
     }
-    report(status_t::FINISHED, status_t::NONE);
+    tell();
     return true;
+}
+
+void Loop::end() {
+    report(status_t::FINISHED, status_t::NONE);
 }
 
 void Loop::restart(const std::optional<reset_request_t> &request) {

@@ -23,6 +23,12 @@ class Loop {
     // again and again.
     bool run(const volatile std::sig_atomic_t *stop);
 
+    // The same by and by, for who has something else to do between: start() once, then pass() until *stop is not 0, or
+    // it is false, then end().
+    void start(const volatile std::sig_atomic_t *stop);
+    bool pass();
+    void end();
+
    private:
     bool follow(const volatile std::sig_atomic_t *stop);
     void begin();  // a session: publishes the state the machine is in, at rest

@@ -8,6 +8,7 @@ from limphome_lab.ending import with_exit_code
 from limphome_lab.run import elsewhere
 from limphome_lab.run.average import average_policy
 from limphome_lab.run.manifest import EVALUATION, Part, begin_manifest, write_manifest
+from limphome_lab.run.one_process import add_one_process, check_one_process
 from limphome_lab.run.pair import Pair
 from limphome_lab.run.processes import raise_on_signals
 from limphome_lab.run.viewing import Viewing, add_argument
@@ -57,8 +58,10 @@ def parse_arguments():
     parser.add_argument("--out", metavar="DIR", help="run folder to make; default RUN/evaluation/, made anew")
     parser.add_argument("--json", action="store_true", help="print JSON instead of a table; of several runs a list")
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
+    add_one_process(parser)
     add_argument(parser)
     args = parser.parse_args()
+    check_one_process(parser, args)
     if args.out is not None and len(args.runs) > 1:
         parser.error(f"--out is for one RUN, and these are {len(args.runs)}: {', '.join(args.runs)}")
     return args
@@ -116,7 +119,7 @@ def main():
 
 
 def run(args, viewing):
-    url = network.enter(args.network)
+    url = None if args.one_process else network.enter(args.network)
     raise_on_signals()
     summaries = []
     for each in args.runs:

@@ -20,7 +20,7 @@ from limphome_lab.ending import InputError
 
 
 class Part:
-    """One stretch of a run, from a start of the two processes to their end."""
+    """One stretch of a run, from a start of simulator and controller to their end."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -28,8 +28,8 @@ class Part:
         self._began = time.monotonic()
 
     def measure(self, result, simulated_s, pair=None):
-        """Call when both processes have ended. `result`: finished, interrupted or failed; `simulated_s`: duration of
-        all episodes done; `pair`: the two, where there are two."""
+        """Call when both have ended. `result`: finished, interrupted or failed; `simulated_s`: duration of
+        all episodes done; `pair`: the two, unless a single program was all."""
         self.wall_time_s = time.monotonic() - self._began
         part = {
             "started": self.started,
@@ -40,10 +40,11 @@ class Part:
         }
         if pair is None:
             return part
+        part["programs"] = pair.programs
         if pair.restarts:
             part["restarts"] = pair.restarts
         lives = [pair.last_statuses(name) for name in PROCESSES]
-        return part | measures(*lives) if all(lives) else part
+        return part | measures(*lives, together=pair.programs == [TOGETHER]) if all(lives) else part
 
 
 def last_status(recording, name, since):
@@ -72,25 +73,29 @@ def recording_as_it_is(recording):
         return {"bytes": recording.stat().st_size, "torn_at": torn.offset}
 
 
-def measures(plant, controller):
-    """What the two processes say of their own work, by the last status of each of their lives: one that was started
-    again counts from nothing."""
-    simulator_share, controller_share = (
-        1 - sum(each.wait_time for each in lives) / sum(each.wall_time for each in lives)
-        for lives in (plant, controller)
-    )
+def measures(plant, controller, together=False):
+    """What the two say of their own work, by the last status of each of their lives: one that was started again counts
+    from nothing. `together`: as one process."""
     return {
         "decisions": sum(each.decisions for each in controller),
-        "simulator_share": simulator_share,
-        "controller_share": controller_share,
-        # in lockstep one of the two works while the other waits; where both wait, a message is under way
-        # the rest; nothing where the two work side by side more than both wait
-        "link_share": max(0.0, 1.0 - simulator_share - controller_share),
+        **dict(zip(SHARES, shares(plant, controller, together), strict=True)),
         "counters": {
             name: {counter: sum(getattr(each, counter) for each in lives) for counter in COUNTERS}
             for name, lives in zip(PROCESSES, (plant, controller), strict=True)
         },
     }
+
+
+def shares(plant, controller, together):
+    """Of wall time, in the order of SHARES."""
+    plant_waited, controller_waited = (
+        sum(each.wait_time for each in lives) / sum(each.wall_time for each in lives) for lives in (plant, controller)
+    )
+    if together:  # while the controller waits, the plant works, and no message is ever under way
+        return controller_waited, 1.0 - controller_waited, 0.0
+    # in lockstep one of the two works while the other waits; where both wait, a message is under way
+    # the rest; nothing where the two work side by side more than both wait
+    return 1.0 - plant_waited, 1.0 - controller_waited, max(0.0, plant_waited + controller_waited - 1.0)
 
 
 def totals(parts):
@@ -111,6 +116,7 @@ def totals(parts):
 
 
 PROCESSES = ("simulator", "controller")
+TOGETHER = "pair"  # the program that is both in one process
 SHARES = ("simulator_share", "controller_share", "link_share")  # of wall time
 COUNTERS = (
     "received",
@@ -143,8 +149,9 @@ COUNTERS = (
 TRAINING, EVALUATION = "training", "evaluation"
 
 
-def begin_manifest(folder, config, programs=PROCESSES, kind=TRAINING):
-    """Notes what kind of run it is and the name of the experiment, before anything has run."""
+def begin_manifest(folder, config, programs=(), kind=TRAINING):
+    """Notes what kind of run it is and the name of the experiment, before anything has run; `programs`: those that no
+    part will name."""
     begun = {"kind": kind, "config": config, "programs": programs, "parts": []}
     files.replace(folder.manifest, json.dumps(begun) + "\n")
 
@@ -177,20 +184,22 @@ def _check_types(begun):
         for key in ("wall_time_s", *measured):
             check(part[key], (int, float))
         check(part.get("restarts", []), list)
+        check(part.get("programs", []), list)
 
 
 def write_manifest(folder, part):
     """Adds a part to manifest.json and brings all else in it up to date."""
     begun = read_manifest(folder)
     parts = begun["parts"] + [part]
+    programs = list(dict.fromkeys([*begun["programs"], *part.get("programs", ())]))
     episodes = folder.read_episodes()
     manifest = {
         "kind": begun["kind"],
         "config": begun["config"],
-        "programs": begun["programs"],
+        "programs": programs,
         "seed": int(folder.settings()["learning"]["seed"]),
         "settings": as_dict(folder.settings()),
-        "digests": {"robot": digest(folder.robot), **program_digests(begun["programs"])},
+        "digests": {"robot": digest(folder.robot), **program_digests(programs)},
         "result": part["result"],
         "episodes": len(episodes),
         "outcomes": dict(Counter(episode.outcome for episode in episodes)),

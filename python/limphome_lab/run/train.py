@@ -13,6 +13,7 @@ from limphome_lab.run.manifest import (
     recording_as_it_is,
     write_manifest,
 )
+from limphome_lab.run.one_process import add_one_process, check_one_process
 from limphome_lab.run.outlook import outlook
 from limphome_lab.run.pair import Pair, SupervisedPair
 from limphome_lab.run.processes import Interrupted, raise_on_signals
@@ -41,6 +42,7 @@ def parse_arguments():
         default="private",
         help="a network namespace of its own (default), or a port of its own on the host's network",
     )
+    add_one_process(parser)
     parser.add_argument(
         "--supervise", action="store_true", help="start simulator or controller again when it dies, and go on"
     )
@@ -48,6 +50,7 @@ def parse_arguments():
     parser.add_argument("--quiet", action="store_true", help="no progress")
     add_argument(parser)
     args = parser.parse_args()
+    check_one_process(parser, args)
     if args.resume is not None and (
         args.config or args.robot or args.packages or args.out or args.set or args.seed is not None
     ):
@@ -118,7 +121,7 @@ def main():
 
 
 def run(args, viewing):
-    url = network.enter(args.network)
+    url = None if args.one_process else network.enter(args.network)
     raise_on_signals()
     folder, done = resumed_folder(args) if args.resume is not None else (new_folder(args), 0)
     part = Part(folder)

@@ -34,7 +34,8 @@ REASONS = {  # of status_t
 
 
 class Watch:
-    """Look often. It listens to the processes only where no episode has ended for a while: that costs time."""
+    """Look often. It listens to the processes only where no episode has ended for a while: that costs time. `url` None:
+    there is nothing to listen to, and only that a process may not run is told."""
 
     def __init__(self, url, tell=None):
         self.url = url
@@ -54,6 +55,9 @@ class Watch:
         self._looked = now
         if self._quiet_s < QUIET_S:
             return
+        if self.url is None:
+            self._say(process_troubles(children), now)
+            return
         self._listener = self._listener or Listener(self.url)
         self._listener.listen()
         if self._listener.decides():
@@ -62,7 +66,7 @@ class Watch:
             self._say(explain(children, self._listener.statuses), now)
 
     def _say(self, text, now):
-        if text != self._said or now - self._said_at >= AGAIN_S:
+        if text and (text != self._said or now - self._said_at >= AGAIN_S):
             self.tell(f"no progress for {self._quiet_s:.0f} s: {text}")
             self._said, self._said_at = text, now
 
@@ -103,10 +107,18 @@ class Listener:
 
 def explain(children, statuses):
     """What is to be said of the children, the culprit alone where there is one."""
-    told = {child.name: process_trouble(child.process.pid) for child in children}
-    if not any(told.values()):
-        told = {child.name: status_trouble(statuses.get(child.name)) for child in children}
-    return ", ".join(f"limphome-{name} {trouble}" for name, trouble in told.items() if trouble)
+    return process_troubles(children) or _words(
+        {child.name: status_trouble(statuses.get(child.name)) for child in children}
+    )
+
+
+def process_troubles(children):
+    """The same as far as the kernel knows; "" where all may run."""
+    return _words({child.name: process_trouble(child.process.pid) for child in children})
+
+
+def _words(troubles):
+    return ", ".join(f"limphome-{name} {trouble}" for name, trouble in troubles.items() if trouble)
 
 
 def process_trouble(pid):

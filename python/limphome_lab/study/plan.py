@@ -37,10 +37,12 @@ class Run:
 
 
 class Plan:
-    """The runs of a table, with the folders of the study in `out`."""
+    """The runs of a table, with the folders of the study in `out`. `together`: each as one process."""
 
-    def __init__(self, table, out):
+    def __init__(self, table, out, together=True):
         self.table = table
+        self.programs = (manifest.TOGETHER,) if together else manifest.PROCESSES
+        self.how = ["--one-process"] if together else []
         self.out = Path(out).absolute()
         self.runs = [self._run(case, seed) for case in table.cases for seeds in table.seeds.values() for seed in seeds]
 
@@ -80,12 +82,12 @@ class Plan:
         if not robot.is_file():
             raise runfolder.InputError(f"{where}: robot {robot}: no such file")
         learns = not case.variant.get("reference", False)
-        programs = _digests(manifest.PROCESSES if learns else (reference.PROGRAM,))
+        programs = _digests(self.programs if learns else (reference.PROGRAM,))
         fingerprint = fingerprint_of(settings, {"robot": manifest.digest(robot), **programs})
         words = ["--config", config, "--robot", robot, *_set(assignments)]
         if not learns:
             return Run(case, seed, fingerprint, _module("study.reference", *words))
-        run = Run(case, seed, fingerprint, _module("run.train", *words, "--no-figures", "--quiet"))
+        run = Run(case, seed, fingerprint, _module("run.train", *words, *self.how, "--no-figures", "--quiet"))
         for entry in self.table.evaluations:
             self._add_evaluation(run, entry, config, assignments)
         return run
@@ -97,7 +99,7 @@ class Plan:
         words = [word for key, value in options.items() for word in (f"--{key}", value)] + _set(entry.settings)
         mark = _hash([run.fingerprint, *map(str, words)])
         folder = f"{run.case.name}-seed{run.seed}-{entry.name}-{mark}"
-        run.evaluations[entry.name] = (folder, _module("run.evaluate", *words))
+        run.evaluations[entry.name] = (folder, _module("run.evaluate", *words, *self.how))
 
     def _found(self, name):
         """A file named in the table: beside it, else one of those that come along."""

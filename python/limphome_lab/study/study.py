@@ -31,6 +31,11 @@ def parse_arguments():
     parser.add_argument("--out", metavar="DIR", help="the study's folder; default studies/<table's name>")
     parser.add_argument("--cores", type=int, metavar="N", help="runs at a time; default: as many as there are cores")
     parser.add_argument("--profile", metavar="DIR", help="Snakemake's profile of a cluster, such as config/slurm")
+    parser.add_argument(
+        "--two-processes",
+        action="store_true",
+        help="each run on a network of its own, where spy and view can watch it; default: as one process, which is faster",
+    )
     parser.add_argument("--dry-run", action="store_true", help="tell what would be run")
     args = parser.parse_args()
     if args.cores is not None and args.cores < 1:
@@ -130,7 +135,7 @@ def main():
     args = parse_arguments()
     raise_on_signals()
     wanted = table.read(args.table)
-    plan = Plan(wanted, args.out or paths.STUDIES / wanted.name)
+    plan = Plan(wanted, args.out or paths.STUDIES / wanted.name, together=not args.two_processes)
     if args.dry_run:
         tell_plan(plan)
         return 0
