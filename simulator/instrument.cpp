@@ -24,7 +24,6 @@
 #include <string>
 #include <vector>
 
-#include "bullet/mass_matrix.h"
 #include "bullet/world.h"
 #include "command_line.h"
 #include "model/robot_model.h"
@@ -194,7 +193,7 @@ void Instrument::ground(double x, double y, double spacing, int columns, int row
 
 void Instrument::measure() const {
     std::printf("{\"time\": %.17g, \"cpu_s\": %.9g, \"kinetic_energy\": %.17g}\n", world_.time(), cpu_s_,
-                kinetic_energy(world_.robot().multibody()));
+                world_.robot().kinetic_energy());
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "bullet/convert.h"
 #include "bullet/crawler.h"
 
 namespace limphome {
@@ -28,17 +27,17 @@ Eigen::Matrix3d contact_frame(const Robot &robot, const ContactShape &shape, con
     return frame;
 }
 
-// Velocity of a point fixed to `link` along the columns of the contact's frame.
-JacobianColumns link_jacobian(const btMultiBody &multibody, int link, const Contact &contact) {
-    const Eigen::Vector3d arm = contact.point - to_eigen(multibody.getBasePos());
+// Velocity of a point fixed to a body along the columns of the contact's frame.
+JacobianColumns body_jacobian(const std::vector<PlacedBody> &bodies, int body, const Contact &contact) {
+    const Eigen::Vector3d arm = contact.point - bodies[0].centre;
     JacobianColumns jacobian = JacobianColumns::Zero();
     for (int column = 0; column < 3; column++) {
         jacobian.col(column).head<3>() = arm.cross(contact.frame.col(column));
         jacobian.col(column).segment<3>(3) = contact.frame.col(column);
     }
-    for (int joint = link; joint >= 0; joint = multibody.getParent(joint)) {
-        const JointAxis axis = joint_axis(multibody, joint);
-        jacobian.row(base_dofs + joint) = axis.direction.cross(contact.point - axis.pivot).transpose() * contact.frame;
+    for (auto i = static_cast<std::size_t>(body); i > 0; i = static_cast<std::size_t>(bodies[i].parent)) {
+        const Eigen::Vector3d turning = bodies[i].axis.cross(contact.point - bodies[i].origin);
+        jacobian.row(joint_dof(i)) = turning.transpose() * contact.frame;
     }
     return jacobian;
 }
@@ -46,7 +45,7 @@ JacobianColumns link_jacobian(const btMultiBody &multibody, int link, const Cont
 // Likewise of the surface of `shape`, into which `normal` points.
 JacobianColumns surface_jacobian(const Robot &robot, const ContactShape &shape, const Eigen::Vector3d &normal,
                                  const Contact &contact) {
-    JacobianColumns jacobian = link_jacobian(robot.multibody(), shape.on_crawler ? -1 : shape.part, contact);
+    JacobianColumns jacobian = body_jacobian(robot.bodies(), shape.on_crawler ? 0 : shape.part + 1, contact);
     if (shape.on_crawler) {
         jacobian.row(base_dofs + shape.part) += belt_velocity(robot, shape.part, normal, contact.frame).transpose();
     }

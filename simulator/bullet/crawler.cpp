@@ -1,7 +1,5 @@
 #include "bullet/crawler.h"
 
-#include "bullet/convert.h"
-
 namespace limphome {
 namespace {
 
@@ -10,9 +8,8 @@ constexpr double lying_flat = 1e-6;  // squared sine of the angle between sprock
 }  // namespace
 
 Eigen::Vector3d belt_direction(const Robot &robot, int crawler, const Eigen::Vector3d &normal) {
-    const btMultibodyLink &sprocket = robot.multibody().getLink(crawler);
-    const Eigen::Vector3d axis = to_eigen(sprocket.m_cachedWorldTransform.getBasis() * sprocket.getAxisTop(0));
-    const Eigen::Vector3d along = axis.cross(normal);
+    const PlacedBody &sprocket = robot.bodies()[static_cast<std::size_t>(crawler) + 1];
+    const Eigen::Vector3d along = sprocket.axis.cross(normal);
     // However the crawler is tilted, its belt keeps its speed.
     return along.squaredNorm() > lying_flat ? along.normalized() : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }

@@ -3,8 +3,6 @@
 #include <Eigen/LU>
 #include <array>
 
-#include "bullet/convert.h"
-
 namespace limphome {
 namespace {
 
@@ -28,38 +26,25 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d &v) {
     return m;
 }
 
-RigidInertia rigid_inertia(double mass, const btVector3 &principal, const btTransform &frame,
-                           const Eigen::Vector3d &point) {
-    const Eigen::Matrix3d axes = to_eigen(frame.getBasis());
-    const Eigen::Vector3d r = to_eigen(frame.getOrigin()) - point;
-    RigidInertia result;
-    result.mass = mass;
-    result.moment = mass * r;
-    result.inertia = axes * to_eigen(principal).asDiagonal() * axes.transpose();
-    result.inertia += mass * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
+RigidInertia about(const Eigen::Vector3d &point, const PlacedBody &body) {
+    const Eigen::Vector3d r = body.centre - point;
+    RigidInertia result{body.mass, body.mass * r, body.inertia - result.moment * r.transpose()};
+    result.inertia.diagonal().array() += result.moment.dot(r);
     return result;
 }
 
 }  // namespace
 
-JointAxis joint_axis(const btMultiBody &multibody, int joint) {
-    const btMultibodyLink &link = multibody.getLink(joint);
-    const btTransform &frame = link.m_cachedWorldTransform;
-    return {to_eigen(frame.getBasis() * link.getAxisTop(0)), to_eigen(frame * -link.m_dVector)};
-}
-
-GeneralMatrix mass_matrix(const btMultiBody &multibody) {
-    const int joints = multibody.getNumLinks();
-    const Eigen::Vector3d point = to_eigen(multibody.getBasePos());
-    std::array<RigidInertia, max_actuators> carried;  // by each joint
-    RigidInertia whole =
-        rigid_inertia(multibody.getBaseMass(), multibody.getBaseInertia(), multibody.getBaseWorldTransform(), point);
-    for (int j = joints - 1; j >= 0; j--) {  // children come after their parents
-        const btMultibodyLink &link = multibody.getLink(j);
-        const auto index = static_cast<std::size_t>(j);
-        carried[index] += rigid_inertia(link.m_mass, link.m_inertiaLocal, link.m_cachedWorldTransform, point);
-        (link.m_parent >= 0 ? carried[static_cast<std::size_t>(link.m_parent)] : whole) += carried[index];
+GeneralMatrix mass_matrix(const std::vector<PlacedBody> &bodies) {
+    const Eigen::Vector3d point = bodies[0].centre;
+    std::array<RigidInertia, 1 + max_actuators> carried;  // by each joint
+    for (std::size_t i = 0; i < bodies.size(); i++) {
+        carried[i] = about(point, bodies[i]);
     }
+    for (std::size_t i = bodies.size() - 1; i > 0; i--) {  // children come after their parents
+        carried[static_cast<std::size_t>(bodies[i].parent)] += carried[i];
+    }
+    const RigidInertia &whole = carried[0];
 
     GeneralMatrix mass = GeneralMatrix::Zero();
     mass.topLeftCorner<3, 3>() = whole.inertia;
@@ -67,21 +52,21 @@ GeneralMatrix mass_matrix(const btMultiBody &multibody) {
     mass.block<3, 3>(3, 0) = -cross_matrix(whole.moment);
     mass.block<3, 3>(3, 3).diagonal().setConstant(whole.mass);
 
-    std::array<Eigen::Matrix<double, base_dofs, 1>, max_actuators> motion;  // of what each joint carries, per unit rate
-    for (int j = 0; j < joints; j++) {
-        const RigidInertia &moved = carried[static_cast<std::size_t>(j)];
-        const JointAxis axis = joint_axis(multibody, j);
-        const Eigen::Vector3d linear = (axis.pivot - point).cross(axis.direction);
-        motion[static_cast<std::size_t>(j)] << axis.direction, linear;
+    std::array<Eigen::Matrix<double, base_dofs, 1>, 1 + max_actuators> motion;  // of what is carried, per unit rate
+    for (std::size_t i = 1; i < bodies.size(); i++) {
+        const RigidInertia &moved = carried[i];
+        const Eigen::Vector3d &axis = bodies[i].axis;
+        const Eigen::Vector3d linear = (bodies[i].origin - point).cross(axis);
+        motion[i] << axis, linear;
         Eigen::Matrix<double, base_dofs, 1> momentum;
-        momentum << moved.inertia * axis.direction + moved.moment.cross(linear),
-            moved.mass * linear + axis.direction.cross(moved.moment);
-        mass.block<base_dofs, 1>(0, base_dofs + j) = momentum;
-        mass.block<1, base_dofs>(base_dofs + j, 0) = momentum.transpose();
-        for (int k = j; k >= 0; k = multibody.getParent(k)) {
-            const double shared = motion[static_cast<std::size_t>(k)].dot(momentum);
-            mass(base_dofs + j, base_dofs + k) = shared;
-            mass(base_dofs + k, base_dofs + j) = shared;
+        momentum << moved.inertia * axis + moved.moment.cross(linear), moved.mass * linear + axis.cross(moved.moment);
+        const int dof = joint_dof(i);
+        mass.block<base_dofs, 1>(0, dof) = momentum;
+        mass.block<1, base_dofs>(dof, 0) = momentum.transpose();
+        for (std::size_t k = i; k > 0; k = static_cast<std::size_t>(bodies[k].parent)) {
+            const double shared = motion[k].dot(momentum);
+            mass(dof, joint_dof(k)) = shared;
+            mass(joint_dof(k), dof) = shared;
         }
     }
     return mass;
@@ -99,18 +84,6 @@ GeneralMatrix rigid_inverse(const GeneralMatrix &mass) {
     inverse.block<3, 3>(3, 3) = -r * turning * r;
     inverse.block<3, 3>(3, 3).diagonal().array() += 1 / total;
     return inverse;
-}
-
-GeneralVector velocities(const btMultiBody &multibody) {
-    GeneralVector velocity = GeneralVector::Zero();
-    const int dofs = base_dofs + multibody.getNumDofs();
-    velocity.head(dofs) = Eigen::Map<const Eigen::VectorXd>(multibody.getVelocityVector(), dofs);
-    return velocity;
-}
-
-double kinetic_energy(const btMultiBody &multibody) {
-    const GeneralVector velocity = velocities(multibody);
-    return 0.5 * velocity.dot(mass_matrix(multibody) * velocity);
 }
 
 }  // namespace limphome

@@ -62,10 +62,14 @@ std::vector<Ball> balls_of(const Body &body) {
 Robot::Robot(const RobotModel &model, const Frictions &frictions)
     : model_(model),
       principal_(principal_frames(model)),
+      from_principal_(principal_[0].inverse()),
       multibody_(static_cast<int>(model.actuators.size()), model.bodies[0].mass,
-                 principal_inertia(model.bodies[0], principal_[0]), false, false) {
+                 principal_inertia(model.bodies[0], principal_[0]), false, false),
+      bodies_(model.bodies.size()) {
     build_links();
-    add_crawlers(frictions.crawler);
+    for (int crawler = 0; crawler < num_crawlers; crawler++) {
+        add_crawler_edges(crawler, frictions.crawler);
+    }
     for (int body = 0; body < static_cast<int>(model_.bodies.size()); body++) {
         add_balls(body, frictions.arm);
     }
@@ -73,6 +77,7 @@ Robot::Robot(const RobotModel &model, const Frictions &frictions)
         const bool on_crawler = solid.crawler >= 0;
         shapes_.push_back({on_crawler ? solid.crawler : solid.body - 1, on_crawler, frictions.body});
     }
+    update_frames();
 }
 
 void Robot::build_links() {
@@ -101,19 +106,13 @@ void Robot::build_links() {
 // A crawler on the ground stands on the edges of its belt. Each end has an inner and an outer edge, a circle; its
 // lowest point is where it touches, so a crawler has four points of contact on a plane, and its rounded ends roll on
 // it.
-void Robot::add_crawler_edges(btCompoundShape &compound, int crawler, double friction) {
+void Robot::add_crawler_edges(int crawler, double friction) {
     const Crawler &c = model_.crawlers[static_cast<std::size_t>(crawler)];
     const Eigen::Vector3d forward = c.axis.cross(Eigen::Vector3d::UnitZ()).normalized();
-    const Eigen::Quaterniond upright = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitY(), c.axis);
     for (const double end : {0.5, -0.5}) {
         for (const double side : {0.5, -0.5}) {
             const Eigen::Vector3d centre =
                 c.centre + end * (c.length - 2 * c.radius) * forward + side * c.width * c.axis;
-            auto circle = std::make_unique<btCylinderShape>(btVector3(c.radius, 0, c.radius));
-            circle->setMargin(0);
-            const Eigen::Isometry3d pose = Eigen::Translation3d(centre) * upright;
-            compound.addChildShape(to_bullet(principal_[0].inverse() * pose), circle.get());
-            geometry_.push_back(std::move(circle));
             const int front = end > 0 ? -1 : static_cast<int>(rims_.size()) - 2;
             rims_.push_back({centre, c.axis, c.radius, front});
             shapes_.push_back({crawler, true, friction});
@@ -121,58 +120,17 @@ void Robot::add_crawler_edges(btCompoundShape &compound, int crawler, double fri
     }
 }
 
-btMultiBodyLinkCollider &Robot::add_collider(int body, std::unique_ptr<btCompoundShape> compound, int first_shape) {
-    auto collider = std::make_unique<btMultiBodyLinkCollider>(&multibody_, body - 1);
-    collider->setCollisionShape(compound.get());
-    collider->setUserIndex(first_shape);
-    geometry_.push_back(std::move(compound));
-    colliders_.push_back(std::move(collider));
-    return *colliders_.back();
-}
-
-void Robot::add_crawlers(double friction) {
-    auto compound = std::make_unique<btCompoundShape>();
-    for (int crawler = 0; crawler < num_crawlers; crawler++) {
-        add_crawler_edges(*compound, crawler, friction);
-    }
-    multibody_.setBaseCollider(&add_collider(0, std::move(compound), 0));
-}
-
 void Robot::add_balls(int body, double friction) {
-    const auto index = static_cast<std::size_t>(body);
-    auto compound = std::make_unique<btCompoundShape>();
-    const int first_shape = static_cast<int>(shapes_.size());
-    for (const Ball &ball : balls_of(model_.bodies[index])) {
-        auto sphere = std::make_unique<btSphereShape>(ball.radius);
-        const Eigen::Isometry3d pose(Eigen::Translation3d(ball.centre));
-        compound->addChildShape(to_bullet(principal_[index].inverse() * pose), sphere.get());
-        geometry_.push_back(std::move(sphere));
-        balls_.push_back({principal_[index].inverse() * ball.centre, ball.radius});
+    for (const Ball &ball : balls_of(model_.bodies[static_cast<std::size_t>(body)])) {
+        balls_.push_back(ball);
         shapes_.push_back({body - 1, false, friction});
-    }
-    if (compound->getNumChildShapes() == 0) {
-        return;
-    }
-    btMultiBodyLinkCollider &collider = add_collider(body, std::move(compound), first_shape);
-    if (body == 0) {
-        hull_ = &collider;
-    } else {
-        multibody_.getLink(body - 1).m_collider = &collider;
-    }
-}
-
-void Robot::place_hull() {
-    if (hull_ != nullptr) {
-        hull_->setWorldTransform(multibody_.getBaseCollider()->getWorldTransform());
     }
 }
 
 Ball Robot::ball(int shape) const {
     const Ball &own = balls_[static_cast<std::size_t>(shape) - rims_.size()];
     const int part = shapes_[static_cast<std::size_t>(shape)].part;
-    const btTransform frame =
-        part < 0 ? multibody_.getBaseWorldTransform() : multibody_.getLink(part).m_cachedWorldTransform;
-    return {to_eigen(frame * to_bullet(own.centre)), own.radius};
+    return {bodies_[static_cast<std::size_t>(part + 1)].point(own.centre), own.radius};
 }
 
 void Robot::scale_friction(int crawler, double share) {
@@ -182,10 +140,11 @@ void Robot::scale_friction(int crawler, double share) {
 }
 
 Eigen::Isometry3d Robot::body_frame(int body) const {
-    const btTransform link =
-        body == 0 ? multibody_.getBaseWorldTransform() : multibody_.getLink(body - 1).m_cachedWorldTransform;
-    const Eigen::Isometry3d frame = Eigen::Translation3d(to_eigen(link.getOrigin())) * to_eigen(link.getRotation());
-    return frame * principal_[static_cast<std::size_t>(body)].inverse();
+    const PlacedBody &placed = bodies_[static_cast<std::size_t>(body)];
+    Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+    frame.linear() = placed.axes;
+    frame.translation() = placed.origin;
+    return frame;
 }
 
 void Robot::set_pose(const Eigen::Isometry3d &pose) {
@@ -194,30 +153,50 @@ void Robot::set_pose(const Eigen::Isometry3d &pose) {
 }
 
 void Robot::update_frames() {
-    multibody_.forwardKinematics(scratch_rotations_, scratch_origins_);
-    multibody_.updateCollisionObjectWorldTransforms(scratch_rotations_, scratch_origins_);
-    place_hull();
+    const btTransform base = multibody_.getBaseWorldTransform();
+    Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+    frame.linear() = to_eigen(base.getBasis());
+    frame.translation() = to_eigen(base.getOrigin());
+    std::array<double, max_actuators> angles{};
+    for (int joint = 0; joint < multibody_.getNumLinks(); joint++) {
+        angles[static_cast<std::size_t>(joint)] = multibody_.getJointPos(joint);
+    }
+    place_bodies(model_, frame * from_principal_, angles.data(), bodies_);
 }
 
-// Link frames of Bullet lie at the centres of mass.
+void Robot::move(const GeneralVector &velocity, double seconds) {
+    multibody_.setBaseOmega(to_bullet(Eigen::Vector3d(velocity.head<3>())));
+    multibody_.setBaseVel(to_bullet(Eigen::Vector3d(velocity.segment<3>(3))));
+    for (int joint = 0; joint < multibody_.getNumLinks(); joint++) {
+        multibody_.setJointVel(joint, velocity[base_dofs + joint]);
+    }
+    multibody_.stepPositionsMultiDof(seconds);
+    update_frames();
+}
+
+GeneralVector Robot::velocity() const {
+    const int dofs = base_dofs + multibody_.getNumDofs();
+    GeneralVector velocity = GeneralVector::Zero();
+    velocity.head(dofs) = Eigen::Map<const Eigen::VectorXd>(multibody_.getVelocityVector(), dofs);
+    return velocity;
+}
+
 Eigen::Vector3d Robot::centre_of_mass() const {
-    Eigen::Vector3d moment = model_.bodies[0].mass * to_eigen(multibody_.getBasePos());
-    for (int link = 0; link < multibody_.getNumLinks(); link++) {
-        moment += multibody_.getLinkMass(link) * to_eigen(multibody_.localPosToWorld(link, btVector3(0, 0, 0)));
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    for (const PlacedBody &body : bodies_) {
+        moment += body.mass * body.centre;
     }
     return moment / model_.mass();
 }
 
+// The linear momentum is three of the rows of mass matrix times velocity.
 Eigen::Vector3d Robot::centre_of_mass_velocity() const {
-    const int count = multibody_.getNumLinks() + 1;
-    std::vector<btVector3> angular(static_cast<std::size_t>(count)), linear(static_cast<std::size_t>(count));
-    multibody_.compTreeLinkVelocities(angular.data(), linear.data());
-    Eigen::Vector3d momentum = Eigen::Vector3d::Zero();
-    for (int body = 0; body < count; body++) {
-        const auto i = static_cast<std::size_t>(body);
-        momentum += model_.bodies[i].mass * to_eigen(multibody_.localDirToWorld(body - 1, linear[i]));
-    }
-    return momentum / model_.mass();
+    return mass_matrix(bodies_).middleRows<3>(3) * velocity() / model_.mass();
+}
+
+double Robot::kinetic_energy() const {
+    const GeneralVector rates = velocity();
+    return 0.5 * rates.dot(mass_matrix(bodies_) * rates);
 }
 
 double Robot::travel_per_radian(int actuator) const {

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
-#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
-#include <btBulletCollisionCommon.h>
 
 #include <Eigen/Geometry>
-#include <memory>
 #include <vector>
 
+#include "bullet/mass_matrix.h"
+#include "bullet/placed_body.h"
 #include "model/robot_model.h"
 
 namespace limphome {
@@ -48,8 +47,8 @@ class Robot {
     const btMultiBody &multibody() const { return multibody_; }
     const RobotModel &model() const { return model_; }
 
-    // Colliders with shapes; the user index of each is the number of its first shape.
-    const std::vector<std::unique_ptr<btMultiBodyLinkCollider>> &colliders() const { return colliders_; }
+    // Where they are, of the model's bodies in their order.
+    const std::vector<PlacedBody> &bodies() const { return bodies_; }
     const std::vector<ContactShape> &shapes() const { return shapes_; }
     // Number of the first shape that touches other bodies, those of model().solids in their order; all before it touch
     // the ground.
@@ -65,14 +64,16 @@ class Robot {
     // Frame of a body in the world.
     Eigen::Isometry3d body_frame(int body) const;
     void set_pose(const Eigen::Isometry3d &pose);
-    // Brings link frames and colliders into line with pose and joint angles.
+    // Brings bodies() into line with the multibody's pose and joint angles.
     void update_frames();
-    // Likewise what of the base may touch the ground beside the crawlers, of which Bullet does not know that it moves.
-    // It is apart, as it is seldom near.
-    void place_hull();
+
+    GeneralVector velocity() const;
+    // Moves for so long at these velocities, which it then has [s].
+    void move(const GeneralVector &velocity, double seconds);
 
     Eigen::Vector3d centre_of_mass() const;
     Eigen::Vector3d centre_of_mass_velocity() const;
+    double kinetic_energy() const;  // [J]
 
     // Belt travel [m] and speed [m/s] of a crawler, angle [rad] and rate [rad/s] of a joint.
     double actuator_position(int actuator) const;
@@ -82,22 +83,17 @@ class Robot {
 
    private:
     void build_links();
-    btMultiBodyLinkCollider &add_collider(int body, std::unique_ptr<btCompoundShape> compound, int first_shape);
-    void add_crawlers(double friction);
+    void add_crawler_edges(int crawler, double friction);
     void add_balls(int body, double friction);
-    void add_crawler_edges(btCompoundShape &compound, int crawler, double friction);
 
     RobotModel model_;
     std::vector<Eigen::Isometry3d> principal_;  // per body: frame of its principal axes at its centre of mass
+    Eigen::Isometry3d from_principal_;          // frame of the base in that of its principal axes
     btMultiBody multibody_;
-    std::vector<std::unique_ptr<btCollisionShape>> geometry_;
-    std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
-    btMultiBodyLinkCollider *hull_ = nullptr;
+    std::vector<PlacedBody> bodies_;
     std::vector<ContactShape> shapes_;
     std::vector<Rim> rims_;
-    std::vector<Ball> balls_;  // after the rims among the shapes; in the frames of Bullet's links
-    btAlignedObjectArray<btQuaternion> scratch_rotations_;
-    btAlignedObjectArray<btVector3> scratch_origins_;
+    std::vector<Ball> balls_;  // after the rims among the shapes; in the frames of their bodies
 };
 
 }  // namespace limphome

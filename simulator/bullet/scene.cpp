@@ -12,7 +12,6 @@ constexpr double settling_time = 0.5;       // [s]
 constexpr double longest_settling = 10;     // on uneven ground [s]
 constexpr double watched = 0.1;             // for so long, until it stays where it is [s]
 constexpr double at_rest = 1e-4;            // at the mean over that time [m/s, rad/s]
-constexpr int ground_group = 1, robot_group = 2;
 
 // Critically damped at the deflection above, so that the robot does not bounce.
 GroundStiffness ground_stiffness(const RobotModel &model) {
@@ -30,70 +29,16 @@ std::vector<Drive> make_drives(const RobotModel &model, const settings &s) {
     return drives;
 }
 
-// To Bullet a plane is near everything; look only at what is low enough to touch it.
-void look_near_ground(btBroadphasePair &pair, btCollisionDispatcher &dispatcher, const btDispatcherInfo &info) {
-    const btBroadphaseProxy &first = *pair.m_pProxy0;
-    const btBroadphaseProxy &robot = first.m_collisionFilterGroup == robot_group ? first : *pair.m_pProxy1;
-    if (robot.m_aabbMin.z() < gContactBreakingThreshold) {
-        btCollisionDispatcher::defaultNearCallback(pair, dispatcher, info);
-    }
-}
-
 }  // namespace
-
-Pipeline::Pipeline(btDispatcher *dispatcher, btBroadphaseInterface *broadphase, btMultiBodyConstraintSolver *unused,
-                   btCollisionConfiguration *configuration, Robot &robot, const Ground &ground, const Solver &solver)
-    : btMultiBodyDynamicsWorld(dispatcher, broadphase, unused, configuration),
-      joints(robot.model().actuators.size()),
-      robot_(robot),
-      ground_(ground),
-      solver_(solver),
-      body_touches_(robot) {
-    for (const auto &collider : robot_.colliders()) {
-        addCollisionObject(collider.get(), robot_group, ground_group);
-    }
-    addMultiBody(&robot_.multibody());
-    const std::size_t room = 4 * robot_.shapes().size();  // a shape may touch uneven ground in several points
-    touches_.reserve(room);
-    contacts.reserve(room);
-    previous_.reserve(room);
-}
-
-void Pipeline::solveConstraints(btContactSolverInfo &info) {
-    solveExternalForces(info);
-    if (ground_.level()) {
-        plane_touches(*getDispatcher(), touches_);
-    } else {
-        ground_touches(robot_, ground_, touches_);
-    }
-    body_touches_.find(robot_, touches_);
-    contacts.swap(previous_);
-    make_contacts(robot_, ground_, touches_, previous_, contacts);
-    solver_.solve(robot_.multibody(), joints, contacts, info.m_timeStep);
-}
 
 Scene::Scene(const RobotModel &model, const settings &s, const Ground &ground, const std::vector<Failure> &failures,
              const Start &start)
     : robot(model, {s.simulator.friction_crawler, s.simulator.friction_arm, s.simulator.friction_body}),
       drives(make_drives(model, s)),
-      dispatcher_(&configuration_),
-      ground_shape_(btVector3(0, 0, 1), 0),
       ground_(ground),
       start_(start),
-      pipeline_(&dispatcher_, &broadphase_, &unused_solver_, &configuration_, robot, ground,
-                Solver(static_cast<int>(s.simulator.solver_iterations), ground_stiffness(model))),
+      dynamics_(robot, ground, Solver(static_cast<int>(s.simulator.solver_iterations), ground_stiffness(model))),
       time_step_(s.simulator.time_step_s) {
-    // See contacts of all shapes from the same distance, not from one that depends on their size.
-    dispatcher_.setDispatcherFlags(0);
-    plane_.setCollisionShape(&ground_shape_);
-    if (ground.level()) {
-        pipeline_.addCollisionObject(&plane_, ground_group, robot_group);
-    }
-    // Bullet gets its memory for a pair when it looks at it for the first and the second time: do that here for all.
-    pipeline_.performDiscreteCollisionDetection();
-    pipeline_.performDiscreteCollisionDetection();
-    dispatcher_.setNearCallback(look_near_ground);
-    set_gravity({0, 0, -standard_gravity});
     for (const Failure &failure : failures) {
         if (failure.from_the_start()) {
             fail(failure);
@@ -111,7 +56,7 @@ void Scene::fail(const Failure &failure) {
 }
 
 void Scene::set_gravity(const Eigen::Vector3d &gravity) {
-    pipeline_.setGravity(to_bullet(gravity));
+    dynamics_.gravity = gravity;
 }
 
 // The point above the start that lies `height` above the incline, across it [m].
@@ -135,7 +80,7 @@ void Scene::place() {
 Eigen::Vector3d Scene::centre_of_pressure() const {
     Eigen::Vector3d moment(0, 0, 0);
     double load = 0;
-    for (const Contact &contact : pipeline_.contacts) {
+    for (const Contact &contact : dynamics_.contacts) {
         moment += contact.impulse[0] * contact.point;
         load += contact.impulse[0];
     }
@@ -167,7 +112,7 @@ void Scene::sink_in(double duration) {
     double energy = 0, time = 0;
     while (time < duration) {
         time += time_step_;
-        for (Contact &contact : pipeline_.contacts) {
+        for (Contact &contact : dynamics_.contacts) {
             contact.impulse.tail<2>().setZero();  // locks no friction in between the points of contact
         }
         step();
@@ -176,7 +121,7 @@ void Scene::sink_in(double duration) {
         }
         hold_in_place();
         const double before = energy;
-        energy = kinetic_energy(robot.multibody());
+        energy = robot.kinetic_energy();
         if (energy < before) {
             robot.multibody().clearVelocities();
             energy = 0;
@@ -201,7 +146,7 @@ void Scene::settle() {
                                    Eigen::AngleAxisd(-turned, Eigen::Vector3d::UnitZ()) *
                                    Eigen::Translation3d(-pose.translation().x(), -pose.translation().y(), 0);
     robot.set_pose(back * pose);
-    for (Contact &contact : pipeline_.contacts) {
+    for (Contact &contact : dynamics_.contacts) {
         contact.point = back * contact.point;
         contact.frame = back.linear() * contact.frame;
     }
@@ -209,22 +154,18 @@ void Scene::settle() {
         robot.multibody().setJointPos(static_cast<int>(a), robot.model().actuators[a].home);
         drives[a].clear_integral();
     }
+    robot.update_frames();
 }
 
 void Scene::step() {
     const btMultiBody &multibody = robot.multibody();
     for (std::size_t a = 0; a < drives.size(); a++) {
         const int joint = static_cast<int>(a);
-        pipeline_.joints[a] = drives[a].begin_step(multibody.getJointPos(joint), multibody.getJointVel(joint));
+        dynamics_.joints[a] = drives[a].begin_step(multibody.getJointPos(joint), multibody.getJointVel(joint));
     }
-    // Bullet keeps points of earlier steps that are still near; on these shapes they are out of date.
-    for (int i = 0; i < dispatcher_.getNumManifolds(); i++) {
-        dispatcher_.getManifoldByIndexInternal(i)->clearManifold();
-    }
-    robot.place_hull();
-    pipeline_.stepSimulation(time_step_, 0);
+    dynamics_.step(time_step_);
     for (std::size_t a = 0; a < drives.size(); a++) {
-        drives[a].end_step(pipeline_.joints[a], multibody.getJointVel(static_cast<int>(a)));
+        drives[a].end_step(dynamics_.joints[a], multibody.getJointVel(static_cast<int>(a)));
     }
 }
 

@@ -17,12 +17,13 @@ constexpr double slowest_slip = 1e-5;
 
 }  // namespace
 
-void Solver::solve(btMultiBody &multibody, std::vector<JointConstraint> &joints, std::vector<Contact> &contacts,
-                   double time_step) {
-    free_ = velocities(multibody);
+const GeneralVector &Solver::solve(const GeneralMatrix &mass, const GeneralVector &momentum,
+                                   std::vector<JointConstraint> &joints, std::vector<Contact> &contacts,
+                                   double time_step) {
+    mass_ = mass;
+    momentum_ = momentum;
     // Implicit in time: the spring is taken at the depth that the end of the step will have.
     compliance_ = 1 / (time_step * (ground_.stiffness * time_step + ground_.damping));
-    mass_ = mass_matrix(multibody);
     inverse_ = rigid_inverse(mass_);
     bool all_held = true;
     for (std::size_t j = 0; j < joints.size(); j++) {
@@ -48,9 +49,7 @@ void Solver::solve(btMultiBody &multibody, std::vector<JointConstraint> &joints,
             }
         } while (release_overloaded(joints, contacts));
     }
-
-    const GeneralVector change = velocity_ - free_;
-    multibody.applyDeltaVeeMultiDof(change.data(), 1);
+    return velocity_;
 }
 
 template <int dofs>
@@ -77,7 +76,7 @@ void Solver::hold_joints(const std::vector<JointConstraint> &joints) {
             velocity_[base_dofs + static_cast<Eigen::Index>(j)] = joints[j].target;
         }
     }
-    const GeneralVector missing = mass_.lazyProduct(free_ - velocity_);
+    const GeneralVector missing = momentum_ - mass_.lazyProduct(velocity_);
     velocity_ += inverse_.lazyProduct(missing);
 }
 
@@ -216,7 +215,7 @@ bool Solver::release_overloaded(std::vector<JointConstraint> &joints, const std:
             impulse[base_dofs + static_cast<Eigen::Index>(j)] += joints[j].impulse;
         }
     }
-    const GeneralVector drives = mass_.lazyProduct(velocity_ - free_) - impulse;
+    const GeneralVector drives = mass_.lazyProduct(velocity_) - momentum_ - impulse;
 
     bool released = false;
     for (std::size_t j = 0; j < joints.size(); j++) {

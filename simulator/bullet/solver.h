@@ -19,10 +19,10 @@ class Solver {
    public:
     Solver(int iterations, const GroundStiffness &ground) : iterations_(iterations), ground_(ground) {}
 
-    // Changes the velocities of `multibody` and fills in the impulses. Forces other than those must have been applied
-    // by Bullet in this step already.
-    void solve(btMultiBody &multibody, std::vector<JointConstraint> &joints, std::vector<Contact> &contacts,
-               double time_step);
+    // Returns the velocities at the end of the step and fills in the impulses. `momentum`, mass times velocity, is what
+    // the robot would have then without drives, stops and contacts.
+    const GeneralVector &solve(const GeneralMatrix &mass, const GeneralVector &momentum,
+                               std::vector<JointConstraint> &joints, std::vector<Contact> &contacts, double time_step);
 
    private:
     // What relaxing one contact needs. Normal law: velocity + compliance * impulse = push while the impulse is above 0.
@@ -62,7 +62,7 @@ class Solver {
     double compliance_ = 0;  // of the ground over one step [1/kg]
     GeneralMatrix mass_;
     GeneralMatrix inverse_;   // velocities per impulse while the held joints keep their rates
-    GeneralVector free_;      // velocities without drives, stops and contacts
+    GeneralVector momentum_;  // momentum without drives, stops and contacts
     GeneralVector velocity_;  // velocities so far
     std::vector<ContactRow> rows_;
     std::vector<Grip> grips_;

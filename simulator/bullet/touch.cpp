@@ -1,17 +1,11 @@
 #include "bullet/touch.h"
 
-#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
-#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
-
 #include <algorithm>
 #include <cmath>
-
-#include "bullet/convert.h"
 
 namespace limphome {
 namespace {
 
-constexpr double reach = 0.02;        // what is farther from the ground than this does not touch [m]
 constexpr int arc_samples = 13;       // of a rounded end
 constexpr double arc = 1.5 * M_PI;    // of the circle that is searched [rad]
 constexpr int run_samples = 7;        // of the flat run of a belt
@@ -46,7 +40,7 @@ class Search {
     Clearance clearance(const Eigen::Vector3d &point) const { return ground_.clearance(point, piece_); }
 
     void add(int shape, const Eigen::Vector3d &point, const Clearance &clearance) {
-        if (clearance.distance < reach) {
+        if (clearance.distance < touch_reach) {
             const Eigen::Vector3d middle = point - 0.5 * clearance.distance * clearance.normal;
             add_by_shape(touches_, {shape, middle, clearance.normal, -clearance.distance});
         }
@@ -59,7 +53,7 @@ class Search {
         for (int i = 1; i < samples; i++) {
             const Sample next = sample(curve, begin + (end - begin) * i / (samples - 1));
             const double between = (next.point - previous.point).norm();
-            if (previous.slope < 0 && next.slope >= 0 && previous.clearance.distance < reach + between) {
+            if (previous.slope < 0 && next.slope >= 0 && previous.clearance.distance < touch_reach + between) {
                 const Sample lowest = refine(curve, previous, next);
                 add(shape, lowest.point, lowest.clearance);
             }
@@ -101,7 +95,7 @@ class Search {
 void touch_rim(Search &search, int shape, const Eigen::Vector3d &centre, const Eigen::Vector3d &axis, double radius) {
     const Clearance middle = search.clearance(centre);
     const Eigen::Vector3d down = axis.dot(middle.normal) * axis - middle.normal;
-    if (middle.distance > radius + reach || down.squaredNorm() < 1e-6) {  // far, or lying flat
+    if (middle.distance > radius + touch_reach || down.squaredNorm() < 1e-6) {  // far, or lying flat
         return;
     }
     const Eigen::Vector3d start = radius * down.normalized(), across = axis.cross(start);
@@ -146,25 +140,6 @@ void touch_balls(Search &search, const Robot &robot) {
 }
 
 }  // namespace
-
-void plane_touches(const btDispatcher &dispatcher, std::vector<Touch> &touches) {
-    touches.clear();
-    for (int m = 0; m < dispatcher.getNumManifolds(); m++) {
-        const btPersistentManifold &manifold =
-            *const_cast<btDispatcher &>(dispatcher).getManifoldByIndexInternal(m);  // Bullet gives no const access
-        const auto *first = btMultiBodyLinkCollider::upcast(manifold.getBody0());
-        const auto *second = btMultiBodyLinkCollider::upcast(manifold.getBody1());
-        const bool swapped = first == nullptr;
-        for (int i = 0; i < manifold.getNumContacts(); i++) {
-            const btManifoldPoint &point = manifold.getContactPoint(i);
-            const Eigen::Vector3d normal = to_eigen(point.m_normalWorldOnB);  // from body 1 into body 0
-            const int shape =
-                swapped ? second->getUserIndex() + point.m_index1 : first->getUserIndex() + point.m_index0;
-            const Eigen::Vector3d middle = 0.5 * to_eigen(point.getPositionWorldOnA() + point.getPositionWorldOnB());
-            add_by_shape(touches, {shape, middle, swapped ? Eigen::Vector3d(-normal) : normal, -point.getDistance()});
-        }
-    }
-}
 
 void ground_touches(const Robot &robot, const Ground &ground, std::vector<Touch> &touches) {
     touches.clear();

@@ -1,8 +1,6 @@
 // Where the robot touches the ground, or is about to; what tells of touches between its bodies, too (body_touch.h).
 #pragma once
 
-#include <BulletCollision/BroadphaseCollision/btDispatcher.h>
-
 #include <Eigen/Core>
 #include <vector>
 
@@ -21,14 +19,11 @@ struct Touch {
     static constexpr int ground = -1;
 };
 
-// Both fill `touches` ordered by shape, so that nothing depends on the order in which they were found; memory that it
-// has is used again.
+constexpr double touch_reach = 0.02;  // what is farther from the ground than this does not touch [m]
 
-// Those that Bullet has found between the robot and a plane.
-void plane_touches(const btDispatcher &dispatcher, std::vector<Touch> &touches);
-
-// Those on any other ground, piece by piece of it. Balls touch in one point, edges of belts where their rounded ends
-// are nearest to the ground and wherever it bulges towards the flat run between them.
+// Fills `touches` with those on any ground, piece by piece of it, ordered by shape so that nothing depends on the order
+// in which they were found; memory that it has is used again. Balls touch in one point, edges of belts where their
+// rounded ends are nearest to the ground and wherever it bulges towards the flat run between them.
 void ground_touches(const Robot &robot, const Ground &ground, std::vector<Touch> &touches);
 
 }  // namespace limphome

@@ -13,6 +13,7 @@ SCRIPTS = (
     "bench",
     "clean",
     "compare",
+    "counts",
     "diagnose",
     "evaluate",
     "export",

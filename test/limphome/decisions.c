@@ -1,8 +1,9 @@
 /* Takes decisions with a simple robot that moves as it is told, learning all the while, and prints for each kind of
  * learner a hash of every decision and of what was learned. Builds of the library with other flags or capacities
- * must print the same. */
+ * must print the same. Usage: decisions [OF_Q_LEARNING OF_A_PLANNER], how many; 0: that learner is left out. */
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "crawler.h"
@@ -112,14 +113,16 @@ static bool decide(const char *name, const lh_config *config, int32_t decisions)
     return true;
 }
 
-int main(void) {
+int main(int argc, char **argv) {
+    const int32_t of_q_learning = argc == 3 ? atoi(argv[1]) : 10000;
+    const int32_t of_planner = argc == 3 ? atoi(argv[2]) : 1000;
     lh_config config = lh_config_default();
     config.learner.q_learning.network.initial_weight = 0.1f;
     config.learner.q_learning.network.exact_gradient = true;
     config.task.episode.goal_distance = 0.5f;
-    const bool good = decide("q_learning", &config, 10000);
+    const bool good = of_q_learning == 0 || decide("q_learning", &config, of_q_learning);
     config.learner.kind = LH_PLANNER;
     config.learner.planner.sweeps = 1;
     config.learner.planner.random_share = 0.1f;
-    return good && decide("planner", &config, 1000) ? 0 : 1;
+    return good && (of_planner == 0 || decide("planner", &config, of_planner)) ? 0 : 1;
 }

@@ -15,6 +15,11 @@ GAVE_UP = 3
 SHORT = ["learning.episodes=6", "episode.step_limit=40", "episode.reset_every=3", "link.sender_timeout_s=0.5"]
 
 
+def faults(bus):
+    """What controllers told as they gave up."""
+    return [status for status in bus.statuses[status_t.CONTROLLER] if status.condition == status_t.FAULT]
+
+
 def two_controllers(folder):
     """The second comes while the first trains, and is never obeyed."""
     patient = [*SHORT[:-1], "link.sender_timeout_s=2"]  # longer than a machine that does much else stands still
@@ -24,13 +29,13 @@ def two_controllers(folder):
         bus.until(lambda: bus.counts[COMMAND] > 50)
         second = bus.start(controller(f"{folder}/second", *patient, "link.give_up_s=4"))
         bus.until(lambda: not second.running())
+        bus.until(lambda: faults(bus), 5)  # told before it ended; the bus may have heard it not yet
         senders = {state.reset_sender for state in bus.states} - {0}
-        last = [status for status in bus.statuses[status_t.CONTROLLER] if status.condition == status_t.FAULT][-1:]
         return {
             "second": second.end(),
             "words": second.words(),
             "owners": len(senders),
-            "decisions": [status.decisions for status in last],
+            "decisions": [status.decisions for status in faults(bus)[-1:]],
             "first_runs": first.running(),
         }
 

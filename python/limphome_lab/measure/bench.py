@@ -11,6 +11,7 @@ from pathlib import Path
 
 from limphome_lab import command, network, paths, runfolder
 from limphome_lab.ending import Ending, with_exit_code
+from limphome_lab.measure import against
 
 PROGRAMS = paths.BUILD / "bench"
 ROUNDS = 5  # all that is compared with each other is measured in turn, this often
@@ -157,6 +158,12 @@ def parse_arguments():
         "bench", "Measures speed, each figure against a baseline of the same run.", "--json bench.json"
     )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write name, value, unit, baseline and ratio of each")
+    parser.add_argument(
+        "--against",
+        metavar="FILE",
+        type=Path,
+        help=f"what an earlier --json wrote; exit code 1 if a ratio fell by more than {100 * against.TOLERANCE:.0f} %%",
+    )
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
     return parser.parse_args()
 
@@ -164,6 +171,7 @@ def parse_arguments():
 @with_exit_code
 def main():
     args = parse_arguments()
+    before = against.read(args.against) if args.against else {}
     url = network.enter(args.network)
     figures = []
     for name, measure in {
@@ -177,7 +185,16 @@ def main():
     print(table(figures))
     if args.json:
         args.json.write_text(json.dumps([figure.as_dict() for figure in figures], indent=2) + "\n")
-    return 0
+    return tell_change(before, figures) if before else 0
+
+
+def tell_change(before, figures):
+    """Exit code."""
+    lines, worse = against.compare(before, {figure.name: figure.ratio for figure in figures})
+    print("", *lines, sep="\n")
+    if worse:
+        print(f"worse by more than {100 * against.TOLERANCE:.0f} %: {', '.join(worse)}", file=sys.stderr)
+    return 1 if worse else 0
 
 
 if __name__ == "__main__":

@@ -144,12 +144,23 @@ def cost(runs):
         for cpu, cores, system in {(m["cpu"], m["cores"], m["os"]) for m in of("machine")}
     )
     revisions = sorted({f"`{(each['commit'] or 'unknown')[:10]}`" for each in of("revision")})
-    shares = " + ".join(f"{statistics.median(of(share)):.0%}" for share in SHARES)
     return (
-        f"Each run took {span(of('wall_time_s'), clock)} for {span(of('decisions'), str)} decisions, "
-        f"{span(of('decisions_per_s'), '{:.0f}'.format)} a second, of which simulator + controller + link had {shares} "
-        f"at the median. {'; '.join(machines)}; revision {', '.join(revisions)}"
+        f"Each run took {span(of('wall_time_s'), clock)}{work(runs)}. {'; '.join(machines)}; "
+        f"revision {', '.join(revisions)}"
         + (" with changes." if any(each["dirty"] for each in of("revision")) else ".")
+    )
+
+
+def work(runs):
+    """What the processes did in that time, by those runs that tell: some end before both have told of themselves."""
+    told = [run.manifest for run in runs if "decisions" in run.manifest]
+    if not told:
+        return ""
+    decisions, rates = ([manifest[name] for manifest in told] for name in ("decisions", "decisions_per_s"))
+    shares = " + ".join(f"{statistics.median(manifest[share] for manifest in told):.0%}" for share in SHARES)
+    return (
+        f" for {span(decisions, str)} decisions, {span(rates, '{:.0f}'.format)} a second, of which simulator + "
+        f"controller + link had {shares} at the median"
     )
 
 

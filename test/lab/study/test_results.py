@@ -54,6 +54,18 @@ def test_row_tells_how_it_ended(tmp_path, out):
     assert "Some CPU, 4 cores, Debian; revision `aaaaaaaaaa` with changes." in text
 
 
+def test_a_run_over_before_it_was_measured_is_told_of_without(tmp_path, out):
+    run = make_run(tmp_path / "run")
+    unmeasured = {
+        name: value for name, value in MANIFEST.items() if name != "decisions" and not name.endswith("_share")
+    }
+    (run / "manifest.json").write_text(json.dumps({**unmeasured, "seed": 1, "wall_time_s": 0.8}))
+    text = results.document([results.Run(run)], out)
+    assert "Each run took 0:01. Some CPU" in text
+    measured = make_run(tmp_path / "measured", seed=2)
+    assert "for 1234 decisions" in results.document([results.Run(run), results.Run(measured)], out)
+
+
 def test_learned_is_told_in_episodes_and_decisions(tmp_path, out):
     run = make_run(tmp_path / "run")
     rows = (run / "episodes.csv").read_text().splitlines()

@@ -16,7 +16,7 @@ TEST(MassMatrix, InvertsWhatBulletMakesOfUnitForces) {
     btMultiBody &multibody = world.robot().multibody();
     world.robot().update_frames();
     const int dofs = 6 + multibody.getNumDofs();
-    const GeneralMatrix mass = mass_matrix(multibody);
+    const GeneralMatrix mass = mass_matrix(world.robot().bodies());
     EXPECT_LT((mass - mass.transpose()).norm(), 1e-9);
 
     btAlignedObjectArray<btScalar> numbers;
@@ -34,7 +34,7 @@ TEST(MassMatrix, InvertsWhatBulletMakesOfUnitForces) {
 TEST(MassMatrix, RigidInverseInvertsTheBaseBlock) {
     World world(paper_robot(), left_locked());
     run(world, {0, 0.3, 0.3, -0.3, 0.2}, 3);
-    const GeneralMatrix mass = mass_matrix(world.robot().multibody());
+    const GeneralMatrix mass = mass_matrix(world.robot().bodies());
     const GeneralMatrix inverse = rigid_inverse(mass);
     const Eigen::Matrix<double, 6, 6> product = inverse.topLeftCorner<6, 6>() * mass.topLeftCorner<6, 6>();
     EXPECT_LT((product - Eigen::Matrix<double, 6, 6>::Identity()).norm(), 1e-9);

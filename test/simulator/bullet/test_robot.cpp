@@ -69,13 +69,13 @@ TEST(Robot, SkewInertiaIsKept) {
     Robot robot(model, {0.7, 0.7, 0});
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     robot.set_pose(pose);
-    const GeneralMatrix mass = mass_matrix(robot.multibody());
+    const GeneralMatrix mass = mass_matrix(robot.bodies());
     RobotModel point = model;
     point.bodies[0].inertia.setIdentity();
     Robot other(point, {0.7, 0.7, 0});
     other.set_pose(pose);
     // the base's own inertia is what differs, up to the point of reference that both share
-    const Eigen::Matrix3d difference = (mass - mass_matrix(other.multibody())).topLeftCorner<3, 3>();
+    const Eigen::Matrix3d difference = (mass - mass_matrix(other.bodies())).topLeftCorner<3, 3>();
     EXPECT_LT((difference - (model.bodies[0].inertia - Eigen::Matrix3d::Identity())).norm(), 1e-9);
 }
 

@@ -40,7 +40,7 @@ Eigen::Vector3d force(const World &world, bool of_bodies) {
 }
 
 double kinetic_energy(const World &world) {
-    return limphome::kinetic_energy(world.robot().multibody());
+    return world.robot().kinetic_energy();
 }
 
 // The arm folded and swung over the left crawler, then lowered with all the boom has.

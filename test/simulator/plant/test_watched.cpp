@@ -141,7 +141,7 @@ TEST(Watched, WhatHasDivergedIsNotShown) {
 // The viewer's script: what to do at the n-th pose.
 using Script = std::map<std::size_t, std::function<void()>>;
 
-void follow(Viewer &viewer, Script script) {
+void follow(Viewer &viewer, const Script &script) {
     viewer.at_each = [&viewer, script](const pose_t &) {
         const auto act = script.find(viewer.poses.size());
         if (act != script.end()) {

@@ -1,0 +1,35 @@
+#include "bullet/dynamics.h"
+
+#include "bullet/bias_force.h"
+#include "bullet/level_touch.h"
+
+namespace limphome {
+
+Dynamics::Dynamics(Robot &robot, const Ground &ground, const Solver &solver)
+    : joints(robot.model().actuators.size()), robot_(robot), ground_(ground), solver_(solver), body_touches_(robot) {
+    const std::size_t room = 4 * robot_.shapes().size();  // a shape may touch uneven ground in several points
+    touches_.reserve(room);
+    contacts.reserve(room);
+    previous_.reserve(room);
+}
+
+void Dynamics::find_contacts() {
+    if (ground_.level()) {
+        level_touches(robot_, touches_);
+    } else {
+        ground_touches(robot_, ground_, touches_);
+    }
+    body_touches_.find(robot_, touches_);
+    contacts.swap(previous_);
+    make_contacts(robot_, ground_, touches_, previous_, contacts);
+}
+
+void Dynamics::step(double time_step) {
+    find_contacts();
+    const GeneralMatrix mass = mass_matrix(robot_.bodies());
+    const GeneralVector velocity = robot_.velocity();
+    const GeneralVector momentum = mass * velocity - time_step * bias_force(robot_.bodies(), velocity, gravity);
+    robot_.move(solver_.solve(mass, momentum, joints, contacts, time_step), time_step);
+}
+
+}  // namespace limphome
