@@ -34,7 +34,7 @@ def parse_arguments():
     parser.add_argument(
         "--two-processes",
         action="store_true",
-        help="each run on a network of its own, where spy and view can watch it; default: as one process, which is faster",
+        help="each run on a network of its own, where spy and view can watch; default: one process, which is faster",
     )
     parser.add_argument("--dry-run", action="store_true", help="tell what would be run")
     args = parser.parse_args()
