@@ -22,8 +22,8 @@ const GeneralVector &Solver::solve(const GeneralMatrix &mass, const GeneralVecto
                                    double time_step) {
     mass_ = mass;
     momentum_ = momentum;
-    // Implicit in time: the spring is taken at the depth that the end of the step will have.
-    compliance_ = 1 / (time_step * (ground_.stiffness * time_step + ground_.damping));
+    // Implicit in time: the spring is taken at the depth in the middle of the step, as velocities of its end leave it.
+    compliance_ = 1 / (time_step * (ground_.stiffness * 0.5 * time_step + ground_.damping));
     inverse_ = rigid_inverse(mass_);
     bool all_held = true;
     for (std::size_t j = 0; j < joints.size(); j++) {
@@ -82,7 +82,7 @@ void Solver::hold_joints(const std::vector<JointConstraint> &joints) {
 
 template <int dofs>
 void Solver::prepare_contacts(const std::vector<Contact> &contacts, double time_step) {
-    const double share = ground_.stiffness / (ground_.stiffness * time_step + ground_.damping);
+    const double share = ground_.stiffness / (ground_.stiffness * 0.5 * time_step + ground_.damping);
     rows_.reserve(contacts.capacity());  // there may be more in a later step
     rows_.resize(contacts.size());
     grips_.reserve(contacts.capacity());
