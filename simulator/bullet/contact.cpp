@@ -65,7 +65,7 @@ Eigen::Vector3d initial_impulse(const Contact &contact, const std::vector<Contac
     for (const Contact &old : previous) {
         const bool alike = old.shape == contact.shape && old.other == contact.other &&
                            old.frame.col(0).dot(contact.frame.col(0)) > 0.9;
-        if (alike && (same == nullptr || (contact.other != Touch::ground && distance(old) < distance(*same)))) {
+        if (alike && (same == nullptr || distance(old) < distance(*same))) {
             same = &old;
         }
     }
