@@ -1,6 +1,7 @@
 // Touches on uneven ground against a search that leaves nothing out.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <random>
 #include <vector>
@@ -12,6 +13,11 @@ namespace limphome {
 namespace {
 
 using namespace laboratory;
+// Further inside a raised strip it is not the same side of it that is the nearest all over.
+constexpr double deepest = 0.025;  // [m]
+// Distances over rough ground are so to first order, and so is what is too far to be looked at.
+constexpr double widest_gap = 0.015;  // [m]
+
 using Curve = std::function<Eigen::Vector3d(double)>;
 
 // The points of a curve that are nearer to a piece of the ground than those beside them, between 0 and 1: each where
@@ -75,6 +81,7 @@ void search_balls(const Robot &robot, const Ground &ground, int piece, std::vect
 
 // Robots here and there on the ground, tilted along it or any way.
 void compare(const settings &s, bool tumbled) {
+    SCOPED_TRACE(s.ground.incline_along_rad + 10 * s.ground.rough_amplitude_m + 100 * s.ground.step_height_m);
     const Ground ground(s);
     Robot robot(paper_robot(), {0.7, 0.7, 0.7});
     std::mt19937 generator(1);
@@ -99,6 +106,10 @@ void compare(const settings &s, bool tumbled) {
         std::stable_sort(expected.begin(), expected.end(),
                          [](const Touch &a, const Touch &b) { return a.shape < b.shape; });
         ground_touches(robot, ground, found);
+        for (std::vector<Touch> *touches : {&expected, &found}) {
+            const auto beyond = [](const Touch &touch) { return touch.depth > deepest || touch.depth < -widest_gap; };
+            touches->erase(std::remove_if(touches->begin(), touches->end(), beyond), touches->end());
+        }
         ASSERT_EQ(found.size(), expected.size()) << trial;
         for (std::size_t i = 0; i < found.size(); i++) {
             EXPECT_EQ(found[i].shape, expected[i].shape);
@@ -108,7 +119,7 @@ void compare(const settings &s, bool tumbled) {
         }
         count += found.size();
     }
-    EXPECT_GT(count, 600U);
+    EXPECT_GT(count, 150U);
 }
 
 settings ground_of(double incline, double amplitude, double step) {
