@@ -48,13 +48,13 @@ BodyTouches::BodyTouches(const Robot &robot) {
     for (std::size_t a = 0; a < model.actuators.size(); a++) {
         const bool is_joint = a >= model.crawlers.size();
         reach_.push_back(is_joint ? farthest_carried(model, static_cast<int>(a) + 1) : 0);
-        angles_.push_back(robot.multibody().getJointPos(static_cast<int>(a)));
+        angles_.push_back(robot.bodies()[a + 1].angle);
     }
 }
 
 void BodyTouches::find(const Robot &robot, std::vector<Touch> &touches) {
     for (std::size_t a = 0; a < angles_.size(); a++) {
-        const double angle = robot.multibody().getJointPos(static_cast<int>(a));
+        const double angle = robot.bodies()[a + 1].angle;
         gone_ += reach_[a] * std::abs(angle - angles_[a]);
         angles_[a] = angle;
     }

@@ -71,8 +71,9 @@ void ContactProblem<dofs>::prepare(const GeneralMatrix &inverse, const GeneralVe
 template <int dofs>
 void ContactProblem<dofs>::prepare_contact(const Contact &contact, const GroundStiffness &ground, double time_step,
                                            ContactRow &row) {
-    // Implicit in time: the spring is taken at the depth that the end of the step will have.
-    const double resistance = ground.stiffness * time_step + ground.damping, compliance = 1 / (time_step * resistance);
+    // Implicit in time: the spring is taken at the depth in the middle of the step, as velocities of its end leave it.
+    const double resistance = ground.stiffness * 0.5 * time_step + ground.damping;
+    const double compliance = 1 / (time_step * resistance);
     row.columns = root_.transpose().lazyProduct(contact.jacobian.template topRows<dofs>());
     row.effect = row.columns.transpose().lazyProduct(row.columns);
     row.push = contact.depth > 0 ? ground.stiffness / resistance * contact.depth : contact.depth / time_step;

@@ -24,11 +24,18 @@ void Dynamics::find_contacts() {
     make_contacts(robot_, ground_, touches_, previous_, contacts);
 }
 
+// Forces are those of the middle of the step, where the robot is half a step ahead.
 void Dynamics::step(double time_step) {
-    find_contacts();
-    const GeneralMatrix mass = mass_matrix(robot_.bodies());
+    const double half = 0.5 * time_step;
     const GeneralVector velocity = robot_.velocity();
-    const GeneralVector momentum = mass * velocity - time_step * bias_force(robot_.bodies(), velocity, gravity);
+    robot_.look_ahead(half);
+    find_contacts();
+    for (Contact &contact : contacts) {
+        contact.depth += half * contact.jacobian.col(0).dot(velocity);  // back to the beginning of the step
+    }
+    const GeneralMatrix mass = mass_matrix(robot_.bodies());
+    const GeneralVector momentum =
+        mass.lazyProduct(velocity) - time_step * bias_force(robot_.bodies(), velocity, gravity);
     robot_.move(solver_.solve(mass, momentum, joints, contacts, time_step), time_step);
 }
 

@@ -12,6 +12,7 @@ namespace limphome {
 struct PlacedBody {
     int parent;               // body it hangs on; -1 for the base
     double mass;              // [kg]
+    double angle;             // of its joint [rad]
     Eigen::Matrix3d axes;     // of its frame, one a column
     Eigen::Vector3d origin;   // of its frame, which the axis of its joint leads through [m]
     Eigen::Vector3d axis;     // of its joint

@@ -1,6 +1,9 @@
 #include "bullet/robot.h"
 
+#include <LinearMath/btTransformUtil.h>
+
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <cmath>
 
 #include "bullet/convert.h"
@@ -77,7 +80,6 @@ Robot::Robot(const RobotModel &model, const Frictions &frictions)
         const bool on_crawler = solid.crawler >= 0;
         shapes_.push_back({on_crawler ? solid.crawler : solid.body - 1, on_crawler, frictions.body});
     }
-    update_frames();
 }
 
 void Robot::build_links() {
@@ -130,7 +132,7 @@ void Robot::add_balls(int body, double friction) {
 Ball Robot::ball(int shape) const {
     const Ball &own = balls_[static_cast<std::size_t>(shape) - rims_.size()];
     const int part = shapes_[static_cast<std::size_t>(shape)].part;
-    return {bodies_[static_cast<std::size_t>(part + 1)].point(own.centre), own.radius};
+    return {bodies()[static_cast<std::size_t>(part + 1)].point(own.centre), own.radius};
 }
 
 void Robot::scale_friction(int crawler, double share) {
@@ -140,7 +142,7 @@ void Robot::scale_friction(int crawler, double share) {
 }
 
 Eigen::Isometry3d Robot::body_frame(int body) const {
-    const PlacedBody &placed = bodies_[static_cast<std::size_t>(body)];
+    const PlacedBody &placed = bodies()[static_cast<std::size_t>(body)];
     Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
     frame.linear() = placed.axes;
     frame.translation() = placed.origin;
@@ -148,30 +150,40 @@ Eigen::Isometry3d Robot::body_frame(int body) const {
 }
 
 void Robot::set_pose(const Eigen::Isometry3d &pose) {
-    multibody_.setBaseWorldTransform(to_bullet(pose * principal_[0]));
-    update_frames();
+    multibody().setBaseWorldTransform(to_bullet(pose * principal_[0]));
 }
 
-void Robot::update_frames() {
-    const btTransform base = multibody_.getBaseWorldTransform();
-    Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
-    frame.linear() = to_eigen(base.getBasis());
-    frame.translation() = to_eigen(base.getOrigin());
+const std::vector<PlacedBody> &Robot::bodies() const {
+    if (!placed_) {
+        look_ahead(0);
+    }
+    return bodies_;
+}
+
+void Robot::look_ahead(double seconds) const {
+    btTransform principal;
+    btTransformUtil::integrateTransform(multibody_.getBaseWorldTransform(), multibody_.getBaseVel(),
+                                        multibody_.getBaseOmega(), seconds, principal);
+    Eigen::Isometry3d base = Eigen::Isometry3d::Identity();
+    base.linear() = to_eigen(principal.getBasis());
+    base.translation() = to_eigen(principal.getOrigin());
     std::array<double, max_actuators> angles{};
     for (int joint = 0; joint < multibody_.getNumLinks(); joint++) {
-        angles[static_cast<std::size_t>(joint)] = multibody_.getJointPos(joint);
+        angles[static_cast<std::size_t>(joint)] =
+            multibody_.getJointPos(joint) + seconds * multibody_.getJointVel(joint);
     }
-    place_bodies(model_, frame * from_principal_, angles.data(), bodies_);
+    place_bodies(model_, base * from_principal_, angles.data(), bodies_);
+    placed_ = true;
 }
 
 void Robot::move(const GeneralVector &velocity, double seconds) {
-    multibody_.setBaseOmega(to_bullet(Eigen::Vector3d(velocity.head<3>())));
-    multibody_.setBaseVel(to_bullet(Eigen::Vector3d(velocity.segment<3>(3))));
-    for (int joint = 0; joint < multibody_.getNumLinks(); joint++) {
-        multibody_.setJointVel(joint, velocity[base_dofs + joint]);
+    btMultiBody &own = multibody();
+    own.setBaseOmega(to_bullet(Eigen::Vector3d(velocity.head<3>())));
+    own.setBaseVel(to_bullet(Eigen::Vector3d(velocity.segment<3>(3))));
+    for (int joint = 0; joint < own.getNumLinks(); joint++) {
+        own.setJointVel(joint, velocity[base_dofs + joint]);
     }
-    multibody_.stepPositionsMultiDof(seconds);
-    update_frames();
+    own.stepPositionsMultiDof(seconds);
 }
 
 GeneralVector Robot::velocity() const {
@@ -183,7 +195,7 @@ GeneralVector Robot::velocity() const {
 
 Eigen::Vector3d Robot::centre_of_mass() const {
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-    for (const PlacedBody &body : bodies_) {
+    for (const PlacedBody &body : bodies()) {
         moment += body.mass * body.centre;
     }
     return moment / model_.mass();
@@ -191,12 +203,12 @@ Eigen::Vector3d Robot::centre_of_mass() const {
 
 // The linear momentum is three of the rows of mass matrix times velocity.
 Eigen::Vector3d Robot::centre_of_mass_velocity() const {
-    return mass_matrix(bodies_).middleRows<3>(3) * velocity() / model_.mass();
+    return mass_matrix(bodies()).middleRows<3>(3) * velocity() / model_.mass();
 }
 
 double Robot::kinetic_energy() const {
     const GeneralVector rates = velocity();
-    return 0.5 * rates.dot(mass_matrix(bodies_) * rates);
+    return 0.5 * rates.dot(mass_matrix(bodies()) * rates);
 }
 
 double Robot::travel_per_radian(int actuator) const {

@@ -43,17 +43,26 @@ class Robot {
    public:
     Robot(const RobotModel &model, const Frictions &frictions);
 
-    btMultiBody &multibody() { return multibody_; }
+    // Holds pose, joint angles and velocities, and integrates them.
     const btMultiBody &multibody() const { return multibody_; }
+    btMultiBody &multibody() {
+        placed_ = false;  // who asks may move it
+        return multibody_;
+    }
     const RobotModel &model() const { return model_; }
 
-    // Where they are, of the model's bodies in their order.
-    const std::vector<PlacedBody> &bodies() const { return bodies_; }
+    // The model's bodies in their order, where they are. All that is told of places below follows from them.
+    const std::vector<PlacedBody> &bodies() const;
+    // Until the robot moves they are where they will be so much later at the present velocities [s].
+    void look_ahead(double seconds) const;
+
     const std::vector<ContactShape> &shapes() const { return shapes_; }
     // Number of the first shape that touches other bodies, those of model().solids in their order; all before it touch
     // the ground.
     int first_solid() const { return static_cast<int>(shapes_.size() - model_.solids.size()); }
     const std::vector<Rim> &rims() const { return rims_; }
+    // They are the shapes after the rims; in the frames of their bodies.
+    const std::vector<Ball> &balls() const { return balls_; }
     // The ball that is `shape`, which must be neither a rim nor a solid, in the world.
     Ball ball(int shape) const;
     // Leaves this share of the friction to the belt of a crawler.
@@ -64,8 +73,6 @@ class Robot {
     // Frame of a body in the world.
     Eigen::Isometry3d body_frame(int body) const;
     void set_pose(const Eigen::Isometry3d &pose);
-    // Brings bodies() into line with the multibody's pose and joint angles.
-    void update_frames();
 
     GeneralVector velocity() const;
     // Moves for so long at these velocities, which it then has [s].
@@ -90,10 +97,11 @@ class Robot {
     std::vector<Eigen::Isometry3d> principal_;  // per body: frame of its principal axes at its centre of mass
     Eigen::Isometry3d from_principal_;          // frame of the base in that of its principal axes
     btMultiBody multibody_;
-    std::vector<PlacedBody> bodies_;
     std::vector<ContactShape> shapes_;
     std::vector<Rim> rims_;
-    std::vector<Ball> balls_;  // after the rims among the shapes; in the frames of their bodies
+    mutable std::vector<PlacedBody> bodies_;  // found when asked for; not by two threads at once
+    mutable bool placed_ = false;             // bodies_ are where they belong
+    std::vector<Ball> balls_;
 };
 
 }  // namespace limphome

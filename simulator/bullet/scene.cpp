@@ -154,7 +154,6 @@ void Scene::settle() {
         robot.multibody().setJointPos(static_cast<int>(a), robot.model().actuators[a].home);
         drives[a].clear_integral();
     }
-    robot.update_frames();
 }
 
 void Scene::step() {

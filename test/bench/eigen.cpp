@@ -69,8 +69,8 @@ void learn(const VectorXf &x, float target) {
     const MatrixXf difference = (-centre).colwise() + x;
     const ArrayXf distance = difference.colwise().squaredNorm().transpose().array();
     const ArrayXf phi = (-distance / width.square()).exp();
-    const float step = config.learning_rate * config.learning_rate * (target - (weight * phi).sum());
-    const ArrayXf pull = step * weight * phi / width.square();
+    const float step = config.learning_rate * (target - (weight * phi).sum());
+    const ArrayXf pull = 2.0f * step * weight * phi / width.square();
     weight += config.network.rate_weight * step * phi;
     width += config.network.rate_width * pull * distance / width;
     centre += config.network.rate_centre * (difference * pull.matrix().asDiagonal());

@@ -1,4 +1,4 @@
-/* The straightforward loop over (13)(14), (3) and (19)-(21), with libm. Compiled with REAL float and double. */
+/* The straightforward loop over (13)(14), (3) and (19)-(21) as the exact gradient, with libm. Compiled with REAL float and double. */
 #include <tgmath.h>
 
 #include "decision.h"
@@ -88,13 +88,13 @@ static int32_t choose(REAL q_max) {
 static void learn(const REAL *x, REAL target) {
     const lh_network_config *rates = &given->learner.config.network;
     REAL alpha = (REAL)given->learner.config.learning_rate;
-    REAL step = alpha * alpha * (target - value(x));
+    REAL step = alpha * (target - value(x));
     for (int32_t j = 0; j < UNITS; j++) {
         REAL weight = network.weight[j];
         REAL width = network.width[j];
         REAL distance = squared_distance(x, j);
         REAL phi = exp(-distance / (width * width));
-        REAL pull = step * weight * phi / (width * width);
+        REAL pull = 2 * step * weight * phi / (width * width);
         network.weight[j] += (REAL)rates->rate_weight * step * phi;
         network.width[j] += (REAL)rates->rate_width * pull * distance / width;
         for (int32_t i = 0; i < num_inputs; i++) { /* NOLINTNEXTLINE(clang-analyzer-core.*): as above */

@@ -10,7 +10,7 @@ ip route add 239.255.76.67/32 dev lo src 127.0.0.1
 cd "$3"
 test ! -e "$1/config"
 
-for program in limphome-controller limphome-simulator; do
+for program in limphome-controller limphome-simulator limphome-pair; do
     "$program" --version
     "$program" --help | grep "usage: $program"
     "$program" --print-settings >defaults.ini
@@ -38,7 +38,9 @@ for robot in "" "--robot two_arm.urdf"; do
     trap - EXIT
     test "$(wc -l <run/episodes.csv)" -eq 3
     test -s run/policy.lcm
-    rm -r run
+    limphome-pair "$@" --out again
+    cmp run/policy.lcm again/policy.lcm
+    rm -r run again
 done
 
 # found there, and nowhere else

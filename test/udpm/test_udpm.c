@@ -146,6 +146,74 @@ START_TEST(test_a_full_queue_loses_and_does_not_wait) {
 }
 END_TEST
 
+/* What `bus` waits for: the other answers what it has heard since. */
+static struct partner {
+    udpm end;
+    struct heard heard;
+    int answered;
+    int worked;
+} partner;
+
+static void work(void *user) {
+    struct partner *p = user;
+    p->worked++;
+    if (p->answered < p->heard.count) {
+        p->answered = p->heard.count;
+        ck_assert(udpm_publish(&p->end, "STATE", p->heard.data, p->heard.size));
+    }
+}
+
+static void join_partner(void) {
+    char error[ERROR_LENGTH] = "";
+    memset(&partner, 0, sizeof partner);
+    ck_assert_msg(udpm_open(&partner.end, "memq://", error), "%s", error);
+    ck_assert(udpm_subscribe(&partner.end, "COMMAND", note, &partner.heard));
+    udpm_join(&bus, &partner.end, work, &partner);
+}
+
+START_TEST(test_joined_ends_hear_each_other_at_once) {
+    join_partner();
+    ck_assert(udpm_publish(&bus, "COMMAND", "go", 2));
+    ck_assert(udpm_publish(&bus, "STATE", "its own", 7));
+    ck_assert_int_eq(partner.heard.count, 1);
+    ck_assert_int_eq(partner.worked, 0);
+    ck_assert_int_eq(udpm_wait(&partner.end, 1000000), 0); /* not so long: it was spoken to */
+    ck_assert_int_eq(udpm_wait(&bus, 1000000), 0);
+    ck_assert_int_eq(partner.worked, 1);
+    ck_assert_int_eq(heard.count, 1);
+    ck_assert_int_eq(heard.size, 2);
+    ck_assert_mem_eq(heard.data, "go", 2);
+    udpm_close(&partner.end);
+}
+END_TEST
+
+START_TEST(test_joined_ends_are_parted_by_closing) {
+    join_partner();
+    udpm_close(&partner.end);
+    ck_assert(udpm_publish(&bus, "STATE", "alone", 5));
+    ck_assert_int_eq(udpm_wait(&bus, 1000), 1);
+    ck_assert(udpm_handle(&bus));
+    ck_assert_int_eq(heard.count, 1);
+}
+END_TEST
+
+START_TEST(test_joined_ends_take_what_a_datagram_carries) {
+    static unsigned char data[UDPM_DATAGRAM_SIZE + 1];
+    join_partner();
+    ck_assert(udpm_publish(&bus, "COMMAND", data, UDPM_DATAGRAM_SIZE));
+    ck_assert(!udpm_publish(&bus, "COMMAND", data, UDPM_DATAGRAM_SIZE + 1));
+    ck_assert_int_eq(partner.heard.count, 1);
+    udpm_close(&partner.end);
+}
+END_TEST
+
+START_TEST(test_nothing_to_wait_for) {
+    ck_assert_int_eq(udpm_wait(&bus, 1), 0);
+    ck_assert(udpm_publish(&bus, "STATE", "", 0));
+    ck_assert_int_eq(udpm_wait(&bus, 1000), 1);
+}
+END_TEST
+
 START_TEST(test_bad_urls) {
     static udpm other;
     char error[ERROR_LENGTH] = "";
@@ -173,6 +241,10 @@ int main(void) {
     tcase_add_test(cases, test_long_names);
     tcase_add_test(cases, test_no_more_subscriptions_than_fit);
     tcase_add_test(cases, test_a_full_queue_loses_and_does_not_wait);
+    tcase_add_test(cases, test_joined_ends_hear_each_other_at_once);
+    tcase_add_test(cases, test_joined_ends_are_parted_by_closing);
+    tcase_add_test(cases, test_joined_ends_take_what_a_datagram_carries);
+    tcase_add_test(cases, test_nothing_to_wait_for);
     tcase_add_test(cases, test_bad_urls);
     return run_suite("udpm", cases);
 }

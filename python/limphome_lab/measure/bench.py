@@ -17,6 +17,11 @@ PROGRAMS = paths.BUILD / "bench"
 ROUNDS = 5  # all that is compared with each other is measured in turn, this often
 SMOKE = paths.CONFIG / "smoke.ini"
 
+BUILDS = {
+    "": "-O2",
+    "_native": "-O3 -march=native",
+}  # of bench_decision and bench_planner, by the end of a figure's name
+
 # Ways of bench_decision that are compared with the library's.
 RIVALS = {"plain_single": "plain C loop, float", "plain_double": "plain C loop, double", "eigen": "Eigen's matrix form"}
 LEAST_AGREEMENT = 0.98  # share of equal actions; rounding may turn one, and with it those that follow
@@ -68,15 +73,14 @@ def decision():
     """Q of all actions, selection and update, in the library and in other ways."""
     from limphome_lab.measure import bench_numpy  # NumPy is there once all is set up, and --help before
 
-    builds = {"": ("bench_decision_O2", "-O2"), "_native": ("bench_decision_native", "-O3 -march=native")}
-    measured = {suffix: [] for suffix in builds}
+    measured = {suffix: [] for suffix in BUILDS}
     by_numpy = []
     for _ in range(ROUNDS):
-        for suffix, (program, _) in builds.items():
-            measured[suffix].append(decision_times(program))
+        for suffix in BUILDS:
+            measured[suffix].append(decision_times(f"bench_decision_{suffix.lstrip('_') or 'O2'}"))
         by_numpy.append(bench_numpy.seconds_per_decision())
 
-    for suffix, (_, flags) in builds.items():
+    for suffix, flags in BUILDS.items():
         median = {way: statistics.median(each[way] for each in measured[suffix]) for way in measured[suffix][0]}
         ours = median["limphome"]
         for way, text in RIVALS.items():
@@ -93,6 +97,16 @@ def decision():
             27 * ours,
             f"2187 joint actions, {flags}, against 27 times 81",
         )
+
+
+def planner_decision():
+    """What a step did taken in, ten postures backed up, two steps looked ahead: in the library and in plain loops."""
+    for suffix, flags in BUILDS.items():
+        seconds = decision_times(f"bench_planner_{suffix.lstrip('_') or 'O2'}")
+        for way in ("plain_single", "plain_double"):
+            name = f"decision_planner{suffix}" + ("" if way == "plain_single" else f"_{way}")
+            text = f"a planner's decision, {flags}, against {RIVALS[way]}"
+            yield lower_is_better(name, seconds["limphome"], "s", seconds[way], text)
 
 
 def simulator_step():
@@ -176,6 +190,7 @@ def main():
     figures = []
     for name, measure in {
         "decision": decision,
+        "decision_planner": planner_decision,
         "simulator_step": simulator_step,
         "lockstep_round_trip": lambda: lockstep_round_trip(url),
         "training_run": training_run,

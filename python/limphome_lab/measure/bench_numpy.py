@@ -35,8 +35,8 @@ class Learner:
 
     def learn(self, target):
         phi, distance = self.activations(self.last)
-        step = ALPHA**2 * (target - phi @ self.weight)
-        pull = step * self.weight * phi / self.width**2
+        step = ALPHA * (target - phi @ self.weight)
+        pull = 2 * step * self.weight * phi / self.width**2
         self.weight += RATE_WEIGHT * step * phi
         self.width += RATE_WIDTH * pull * distance / self.width
         self.centre += RATE_CENTRE * pull[:, None] * (self.last - self.centre)

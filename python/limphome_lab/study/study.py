@@ -1,9 +1,12 @@
 """Command study: makes the runs of a table side by side, and a report of them."""
 
+import contextlib
 import fcntl
+import importlib
 import importlib.util
 import os
 import signal
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -13,10 +16,11 @@ from limphome_lab.ending import Ending, with_exit_code
 from limphome_lab.run.processes import Child, raise_on_signals
 from limphome_lab.runfolder import InputError
 from limphome_lab.show.progress import LINE_EVERY_S, clock
-from limphome_lab.study import table
+from limphome_lab.study import foretell, table
 from limphome_lab.study.plan import Plan
 
 SNAKEFILE = Path(__file__).with_name("Snakefile")
+REPORT = "limphome_lab.study.report"
 POLL_S = 0.5
 GRACE_S = 60.0  # for runs to end cleanly after Ctrl-C, before they are killed; a cluster takes half a minute
 
@@ -34,9 +38,14 @@ def parse_arguments():
     parser.add_argument(
         "--two-processes",
         action="store_true",
-        help="each run on a network of its own, where spy and view can watch it; default: as one process, which is faster",
+        help="each run on a network of its own, where spy and view can watch; default: one process, which is faster",
     )
     parser.add_argument("--dry-run", action="store_true", help="tell what would be run")
+    parser.add_argument(
+        "--foretell",
+        metavar="NODESxCORES",
+        help="tell what it would cost on so many nodes of so many cores, by a run of each case that is thrown away",
+    )
     args = parser.parse_args()
     if args.cores is not None and args.cores < 1:
         parser.error(f"--cores {args.cores}: must be at least 1")
@@ -57,6 +66,7 @@ def snakemake(args, out):
     """Words that start Snakemake. What is done is told by the folders that are there, and by nothing else."""
     words = [sys.executable, "-m", "snakemake", "--snakefile", SNAKEFILE, "--directory", out]
     words += ["--keep-going", "--ignore-incomplete", "--nolock", "--rerun-triggers", "input"]
+    words += ["--scheduler", "greedy"]  # each takes one core: there is nothing for an integer program to solve
     words += ["--cores", str(args.cores or len(os.sched_getaffinity(0)))]
     if args.profile:
         words += ["--profile", Path(args.profile).absolute()]
@@ -99,9 +109,11 @@ def make_runs(args, plan):
     line = Line(list(plan.folders()))
     child = Child("snakemake", [str(word) for word in snakemake(args, plan.out)], log)
     try:
+        importlib.import_module(REPORT)  # SciPy and matplotlib take as long to load as Snakemake takes to begin
         while child.exit_code() is None:
             line.update()
-            time.sleep(POLL_S)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                child.process.wait(POLL_S)
     finally:
         end_group(child)
         line.update(last=True)
@@ -135,6 +147,9 @@ def main():
     args = parse_arguments()
     raise_on_signals()
     wanted = table.read(args.table)
+    if args.foretell:
+        foretell.tell(wanted, args.foretell, args.profile, together=not args.two_processes)
+        return 0
     plan = Plan(wanted, args.out or paths.STUDIES / wanted.name, together=not args.two_processes)
     if args.dry_run:
         tell_plan(plan)
@@ -148,9 +163,7 @@ def main():
         raise InputError(f"{plan.out}: cannot be made the study's folder: {error.strerror}") from error
     plan.write()
     complete = make_runs(args, plan)
-    from limphome_lab.study.report import write_report  # SciPy and matplotlib take a while to load
-
-    for file in write_report(plan):
+    for file in importlib.import_module(REPORT).write_report(plan):
         print(paths.shown(file))
     held.close()
     return 0 if complete else 1

@@ -14,7 +14,6 @@ TEST(MassMatrix, InvertsWhatBulletMakesOfUnitForces) {
     World world(paper_robot(), left_locked());
     run(world, {0, 0.3, 0.3, -0.3, 0.2}, 3);
     btMultiBody &multibody = world.robot().multibody();
-    world.robot().update_frames();
     const int dofs = 6 + multibody.getNumDofs();
     const GeneralMatrix mass = mass_matrix(world.robot().bodies());
     EXPECT_LT((mass - mass.transpose()).norm(), 1e-9);

@@ -32,7 +32,6 @@ Eigen::Vector4d moments_by_hand(const Eigen::Isometry3d &base, double swing_angl
 TEST(Robot, CentreOfMassIsThatOfTheFile) {
     World world(paper_robot(), left_locked());
     run(world, {0, 0.3, 0.3, -0.3, 0.2}, 3);
-    world.robot().update_frames();
     const robot_state_t s = state(world);
     const double *q = s.actuator_position;
     const Eigen::Vector4d sum = moments_by_hand(world.robot().pose(), q[swing], q[boom], q[arm]);
@@ -44,11 +43,9 @@ TEST(Robot, CentreOfMassIsThatOfTheFile) {
 TEST(Robot, CentreOfMassVelocityIsItsDerivative) {
     World world(paper_robot(), left_locked());
     run(world, {0, 0.3, 0.3, -0.3, 0.2}, 1.5);
-    world.robot().update_frames();
     const Eigen::Vector3d before = world.robot().centre_of_mass();
     const Eigen::Vector3d velocity = world.robot().centre_of_mass_velocity();
     world.step();
-    world.robot().update_frames();
     const Eigen::Vector3d difference = (world.robot().centre_of_mass() - before) / world.time_step();
     EXPECT_GT(velocity.norm(), 0.05);
     EXPECT_LT((velocity - difference).norm(), 0.005);
