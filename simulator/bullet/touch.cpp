@@ -191,15 +191,21 @@ void touch_crawlers(Search &search, const Robot &robot) {
 }
 
 void touch_balls(Search &search, const Robot &robot) {
-    for (std::size_t i = robot.rims().size(); i < static_cast<std::size_t>(robot.first_solid()); i++) {
-        const int shape = static_cast<int>(i);
-        const auto [centre, radius] = robot.ball(shape);
-        if (search.is_high(centre, radius)) {
+    for (const BodyBalls &own : robot.balls()) {
+        const PlacedBody &body = robot.bodies()[static_cast<std::size_t>(own.body)];
+        if (search.is_high(body.origin, own.farthest)) {
             continue;
         }
-        Clearance clearance = search.clearance(centre);
-        clearance.distance -= radius;
-        search.add(shape, centre - radius * clearance.normal, clearance);
+        int shape = own.first_shape;
+        for (const Ball &ball : own.balls) {
+            const Eigen::Vector3d centre = body.point(ball.centre);
+            if (!search.is_high(centre, ball.radius)) {
+                Clearance clearance = search.clearance(centre);
+                clearance.distance -= ball.radius;
+                search.add(shape, centre - ball.radius * clearance.normal, clearance);
+            }
+            shape++;
+        }
     }
 }
 

@@ -68,13 +68,17 @@ void search_rims(const Robot &robot, const Ground &ground, int piece, std::vecto
 }
 
 void search_balls(const Robot &robot, const Ground &ground, int piece, std::vector<Touch> &touches) {
-    for (int shape = static_cast<int>(robot.rims().size()); shape < robot.first_solid(); shape++) {
-        const Ball ball = robot.ball(shape);
-        const Clearance found = ground.clearance(ball.centre, piece);
-        const double distance = found.distance - ball.radius;
-        if (distance < touch_reach) {
-            const Eigen::Vector3d point = ball.centre - (ball.radius + 0.5 * distance) * found.normal;
-            touches.push_back({shape, point, found.normal, -distance});
+    for (const BodyBalls &own : robot.balls()) {
+        int shape = own.first_shape;
+        for (const Ball &ball : own.balls) {
+            const Eigen::Vector3d centre = robot.bodies()[static_cast<std::size_t>(own.body)].point(ball.centre);
+            const Clearance found = ground.clearance(centre, piece);
+            const double distance = found.distance - ball.radius;
+            if (distance < touch_reach) {
+                const Eigen::Vector3d point = centre - (ball.radius + 0.5 * distance) * found.normal;
+                touches.push_back({shape, point, found.normal, -distance});
+            }
+            shape++;
         }
     }
 }
