@@ -18,6 +18,7 @@ SCRIPTS = (
     "evaluate",
     "export",
     "faults",
+    "growth",
     "launch",
     "plot",
     "replay",

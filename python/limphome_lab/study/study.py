@@ -16,7 +16,7 @@ from limphome_lab.ending import Ending, with_exit_code
 from limphome_lab.run.processes import Child, raise_on_signals
 from limphome_lab.runfolder import InputError
 from limphome_lab.show.progress import LINE_EVERY_S, clock
-from limphome_lab.study import table
+from limphome_lab.study import foretell, table
 from limphome_lab.study.plan import Plan
 
 SNAKEFILE = Path(__file__).with_name("Snakefile")
@@ -41,6 +41,11 @@ def parse_arguments():
         help="each run on a network of its own, where spy and view can watch; default: one process, which is faster",
     )
     parser.add_argument("--dry-run", action="store_true", help="tell what would be run")
+    parser.add_argument(
+        "--foretell",
+        metavar="NODESxCORES",
+        help="tell what it would cost on so many nodes of so many cores, by a run of each case that is thrown away",
+    )
     args = parser.parse_args()
     if args.cores is not None and args.cores < 1:
         parser.error(f"--cores {args.cores}: must be at least 1")
@@ -142,6 +147,9 @@ def main():
     args = parse_arguments()
     raise_on_signals()
     wanted = table.read(args.table)
+    if args.foretell:
+        foretell.tell(wanted, args.foretell, args.profile, together=not args.two_processes)
+        return 0
     plan = Plan(wanted, args.out or paths.STUDIES / wanted.name, together=not args.two_processes)
     if args.dry_run:
         tell_plan(plan)
