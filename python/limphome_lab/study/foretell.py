@@ -3,7 +3,6 @@
 Everything else is counted: seeds, evaluations, nodes. docs/performance.md tells how near that came.
 """
 
-import os
 import re
 import resource
 import subprocess
@@ -13,7 +12,6 @@ import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from limphome_lab import paths
 from limphome_lab.ending import Ending, InputError
 from limphome_lab.study.plan import Plan
 
