@@ -50,6 +50,6 @@ int main(int argc, char **argv) {
         return ENDING_BAD_INPUT;
     }
     line.lcm_url = PLANT_OWN_QUEUE;
-    const int how = run_with(p, &controller, &line, &robot);
-    return plant_close(p) ? how : ENDING_WENT_WRONG;
+    const ending how = run_with(p, &controller, &line, &robot);
+    return plant_close(p) ? (int)how : ENDING_WENT_WRONG;
 }

@@ -12,17 +12,22 @@ constexpr double firmness_of_bodies = 10;
 
 using JacobianColumns = Eigen::Matrix<double, max_dofs, 3>;
 
-// Tangents: along and across the belt on a crawler, so that drives act on one of them only; else any.
-Eigen::Matrix3d contact_frame(const Robot &robot, const ContactShape &shape, const ContactShape &other,
-                              const Eigen::Vector3d &normal) {
+// One of the two surfaces that touch.
+struct Surface {
+    const ContactShape &shape;
+    Eigen::Vector3d along;  // direction of its belt; 0 if it has none, or lies on its side
+};
+
+// `normal` points into it.
+Surface surface_of(const Robot &robot, const ContactShape &shape, const Eigen::Vector3d &normal) {
+    return {shape, shape.on_crawler ? belt_direction(robot, shape.part, normal) : Eigen::Vector3d(0, 0, 0)};
+}
+
+// Tangents: along and across a belt, so that drives act on one of them only; else any.
+Eigen::Matrix3d contact_frame(const Eigen::Vector3d &normal, const Eigen::Vector3d &along) {
     Eigen::Matrix3d frame;
-    const ContactShape &belt = shape.on_crawler ? shape : other;
-    Eigen::Vector3d along = belt.on_crawler ? belt_direction(robot, belt.part, normal) : normal.unitOrthogonal();
-    if (along.isZero()) {  // lying on its side
-        along = normal.unitOrthogonal();
-    }
     frame.col(0) = normal;
-    frame.col(1) = along.normalized();
+    frame.col(1) = along.isZero() ? normal.unitOrthogonal() : along;
     frame.col(2) = normal.cross(frame.col(1));
     return frame;
 }
@@ -42,12 +47,12 @@ JacobianColumns body_jacobian(const std::vector<PlacedBody> &bodies, int body, c
     return jacobian;
 }
 
-// Likewise of the surface of `shape`, into which `normal` points.
-JacobianColumns surface_jacobian(const Robot &robot, const ContactShape &shape, const Eigen::Vector3d &normal,
-                                 const Contact &contact) {
-    JacobianColumns jacobian = body_jacobian(robot.bodies(), shape.on_crawler ? 0 : shape.part + 1, contact);
-    if (shape.on_crawler) {
-        jacobian.row(base_dofs + shape.part) += belt_velocity(robot, shape.part, normal, contact.frame).transpose();
+// Likewise of a surface.
+JacobianColumns surface_jacobian(const Robot &robot, const Surface &surface, const Contact &contact) {
+    const int part = surface.shape.part;
+    JacobianColumns jacobian = body_jacobian(robot.bodies(), surface.shape.on_crawler ? 0 : part + 1, contact);
+    if (surface.shape.on_crawler) {
+        jacobian.row(base_dofs + part) += belt_velocity(robot, part, surface.along, contact.frame).transpose();
     }
     return jacobian;
 }
@@ -60,7 +65,7 @@ Eigen::Vector3d initial_impulse(const Contact &contact, const std::vector<Contac
     for (const Contact &old : previous) {
         const bool alike = old.shape == contact.shape && old.other == contact.other &&
                            old.frame.col(0).dot(contact.frame.col(0)) > 0.9;
-        if (alike && (same == nullptr || (contact.other != Touch::ground && distance(old) < distance(*same)))) {
+        if (alike && (same == nullptr || distance(old) < distance(*same))) {
             same = &old;
         }
     }
@@ -69,24 +74,23 @@ Eigen::Vector3d initial_impulse(const Contact &contact, const std::vector<Contac
 }
 
 void make_contact(const Robot &robot, const Ground &ground, const Touch &touch, Contact &contact) {
-    static const ContactShape none{-1, false, 0};
-    const bool on_ground = touch.other == Touch::ground;
-    const ContactShape &shape = robot.shapes()[static_cast<std::size_t>(touch.shape)];
-    const ContactShape &other = on_ground ? none : robot.shapes()[static_cast<std::size_t>(touch.other)];
+    const Surface own = surface_of(robot, robot.shapes()[static_cast<std::size_t>(touch.shape)], touch.normal);
     contact.shape = touch.shape;
     contact.other = touch.other;
     contact.point = touch.point;
-    contact.frame = contact_frame(robot, shape, other, touch.normal);
     contact.depth = touch.depth;
-    contact.jacobian = surface_jacobian(robot, shape, touch.normal, contact);
-    if (on_ground) {
-        contact.friction = shape.friction * ground.friction(touch.point);
+    if (touch.other == Touch::ground) {
+        contact.frame = contact_frame(touch.normal, own.along);
+        contact.jacobian = surface_jacobian(robot, own, contact);
+        contact.friction = own.shape.friction * ground.friction(touch.point);
         contact.firmness = 1;
-    } else {
-        contact.friction = std::min(shape.friction, other.friction);
-        contact.firmness = firmness_of_bodies;
-        contact.jacobian -= surface_jacobian(robot, other, -touch.normal, contact);
+        return;
     }
+    const Surface other = surface_of(robot, robot.shapes()[static_cast<std::size_t>(touch.other)], -touch.normal);
+    contact.frame = contact_frame(touch.normal, own.along.isZero() ? -other.along : own.along);
+    contact.jacobian = surface_jacobian(robot, own, contact) - surface_jacobian(robot, other, contact);
+    contact.friction = std::min(own.shape.friction, other.shape.friction);
+    contact.firmness = firmness_of_bodies;
 }
 
 }  // namespace

@@ -14,12 +14,10 @@ Eigen::Vector3d belt_direction(const Robot &robot, int crawler, const Eigen::Vec
     return along.squaredNorm() > lying_flat ? along.normalized() : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
-Eigen::Vector3d belt_velocity(const Robot &robot, int crawler, const Eigen::Vector3d &normal,
+Eigen::Vector3d belt_velocity(const Robot &robot, int crawler, const Eigen::Vector3d &direction,
                               const Eigen::Matrix3d &frame) {
-    const Eigen::Vector3d direction = belt_direction(robot, crawler, normal);
     const double radius = robot.model().crawlers[static_cast<std::size_t>(crawler)].radius;
-    const Eigen::Vector3d forward = frame.transpose() * direction;
-    return -radius * forward;
+    return -radius * (frame.transpose() * direction);
 }
 
 }  // namespace limphome

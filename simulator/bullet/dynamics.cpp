@@ -34,7 +34,8 @@ void Dynamics::step(double time_step) {
         contact.depth += half * contact.jacobian.col(0).dot(velocity);  // back to the beginning of the step
     }
     const GeneralMatrix mass = mass_matrix(robot_.bodies());
-    const GeneralVector momentum = mass * velocity - time_step * bias_force(robot_.bodies(), velocity, gravity);
+    const GeneralVector momentum =
+        mass.lazyProduct(velocity) - time_step * bias_force(robot_.bodies(), velocity, gravity);
     robot_.move(solver_.solve(mass, momentum, joints, contacts, time_step), time_step);
 }
 

@@ -61,6 +61,8 @@ class Robot {
     // the ground.
     int first_solid() const { return static_cast<int>(shapes_.size() - model_.solids.size()); }
     const std::vector<Rim> &rims() const { return rims_; }
+    // They are the shapes after the rims; in the frames of their bodies.
+    const std::vector<Ball> &balls() const { return balls_; }
     // The ball that is `shape`, which must be neither a rim nor a solid, in the world.
     Ball ball(int shape) const;
     // Leaves this share of the friction to the belt of a crawler.
@@ -99,7 +101,7 @@ class Robot {
     std::vector<Rim> rims_;
     mutable std::vector<PlacedBody> bodies_;  // found when asked for; not by two threads at once
     mutable bool placed_ = false;             // bodies_ are where they belong
-    std::vector<Ball> balls_;                 // after the rims among the shapes; in the frames of their bodies
+    std::vector<Ball> balls_;
 };
 
 }  // namespace limphome

@@ -57,12 +57,11 @@ static void say(bus *b, const char *channel, const void *bytes, int size) {
 
 /* Waits for a message, as the programs do, and handles it; false if none came. */
 static bool handle(bus *b, int milliseconds) {
-    struct pollfd waiting = {.fd = b->liblcm != NULL ? lcm_get_fileno(b->liblcm) : udpm_fileno(&b->udpm),
-                             .events = POLLIN};
-    if (poll(&waiting, 1, milliseconds) <= 0) {
-        return false;
+    if (b->liblcm == NULL) {
+        return udpm_wait(&b->udpm, milliseconds) > 0 && udpm_handle(&b->udpm);
     }
-    return b->liblcm != NULL ? lcm_handle(b->liblcm) == 0 : udpm_handle(&b->udpm);
+    struct pollfd waiting = {.fd = lcm_get_fileno(b->liblcm), .events = POLLIN};
+    return poll(&waiting, 1, milliseconds) > 0 && lcm_handle(b->liblcm) == 0;
 }
 
 static void on_state(const lcm_recv_buf_t *buffer, const char *channel, void *user) {

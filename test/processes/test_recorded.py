@@ -30,6 +30,7 @@ def learned_fields(policy):
 def test_what_is_learned_is_what_was_recorded(experiment, tmp_path):
     run_script(
         "train",
+        "--one-process",  # the bytes of two, and sooner there
         "--config",
         ROOT / "config" / f"{experiment}.ini",
         "--episodes",

@@ -1,9 +1,12 @@
 """Command study: makes the runs of a table side by side, and a report of them."""
 
+import contextlib
 import fcntl
+import importlib
 import importlib.util
 import os
 import signal
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -17,6 +20,7 @@ from limphome_lab.study import foretell, table
 from limphome_lab.study.plan import Plan
 
 SNAKEFILE = Path(__file__).with_name("Snakefile")
+REPORT = "limphome_lab.study.report"
 POLL_S = 0.5
 GRACE_S = 60.0  # for runs to end cleanly after Ctrl-C, before they are killed; a cluster takes half a minute
 
@@ -62,6 +66,7 @@ def snakemake(args, out):
     """Words that start Snakemake. What is done is told by the folders that are there, and by nothing else."""
     words = [sys.executable, "-m", "snakemake", "--snakefile", SNAKEFILE, "--directory", out]
     words += ["--keep-going", "--ignore-incomplete", "--nolock", "--rerun-triggers", "input"]
+    words += ["--scheduler", "greedy"]  # each takes one core: there is nothing for an integer program to solve
     words += ["--cores", str(args.cores or len(os.sched_getaffinity(0)))]
     if args.profile:
         words += ["--profile", Path(args.profile).absolute()]
@@ -104,9 +109,11 @@ def make_runs(args, plan):
     line = Line(list(plan.folders()))
     child = Child("snakemake", [str(word) for word in snakemake(args, plan.out)], log)
     try:
+        importlib.import_module(REPORT)  # SciPy and matplotlib take as long to load as Snakemake takes to begin
         while child.exit_code() is None:
             line.update()
-            time.sleep(POLL_S)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                child.process.wait(POLL_S)
     finally:
         end_group(child)
         line.update(last=True)
@@ -156,9 +163,7 @@ def main():
         raise InputError(f"{plan.out}: cannot be made the study's folder: {error.strerror}") from error
     plan.write()
     complete = make_runs(args, plan)
-    from limphome_lab.study.report import write_report  # SciPy and matplotlib take a while to load
-
-    for file in write_report(plan):
+    for file in importlib.import_module(REPORT).write_report(plan):
         print(paths.shown(file))
     held.close()
     return 0 if complete else 1

@@ -37,8 +37,8 @@ the arm and dragging, against a run with steps of 0.25 ms. Real-time factor: sim
 
 {convergence}
 
-The default is 5 ms and 20 iterations: errors of a skid turn do not depend on the step, those of the place are around a
-millimetre and shrink in proportion to it; sweeps end by themselves once they change nothing, so a high limit costs little.
+The default is 5 ms and 20 iterations: errors of a skid turn do not depend on the step, those of the place are below a
+millimetre up to 10 ms, as the forces of a step are those of its middle; sweeps end by themselves once they change nothing, so a high limit costs little.
 The yaw rate's remaining error is no error of the steps: the robot has inertia (the centripetal force shifts the
 loads), which the quasi-static analysis leaves out, and it vanishes at low speed (last table).
 

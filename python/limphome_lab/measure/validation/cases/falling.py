@@ -86,7 +86,7 @@ def _largest_rise(time_step):
 
 def passive():
     """What rises is the error of integrating the arm, which swings freely; it goes with the time step."""
-    for time_step, tolerance in ((0.005, 0.05), (0.001, 0.005)):
+    for time_step, tolerance in ((0.005, 0.002), (0.001, 0.0005)):
         yield Quantity(
             f"drives off, dropped from 0.2 m, step {1e3 * time_step:g} ms",
             "rise of energy / energy dropped",
