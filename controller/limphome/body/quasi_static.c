@@ -101,11 +101,12 @@ void lh_footing_find(const lh_robot *robot, const float *joint_angle, const lh_r
     footing->pull_y = footing->level ? 0.0f : -up.y / (up.z * friction);
 }
 
-/* Motions are found side by side, as many as a vector has room for; one after the other where there are no vectors. */
-#define WIDTH (LH_VECTOR_WIDTH < LH_MOTIONS ? LH_VECTOR_WIDTH : LH_MOTIONS)
+/* Motions are found side by side; one after the other where there are no vectors. */
 #if LH_VECTOR_WIDTH > 1
+#define WIDTH LH_MOTIONS
 typedef float lanes __attribute__((vector_size(4 * WIDTH)));
 #else
+#define WIDTH 1
 typedef float lanes;
 #endif
 
