@@ -3,6 +3,7 @@
 #include <LinearMath/btTransformUtil.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -123,16 +124,14 @@ void Robot::add_crawler_edges(int crawler, double friction) {
 }
 
 void Robot::add_balls(int body, double friction) {
-    for (const Ball &ball : balls_of(model_.bodies[static_cast<std::size_t>(body)])) {
-        balls_.push_back(ball);
+    BodyBalls own{body, static_cast<int>(shapes_.size()), balls_of(model_.bodies[static_cast<std::size_t>(body)]), 0};
+    for (const Ball &ball : own.balls) {
+        own.farthest = std::max(own.farthest, ball.centre.norm() + ball.radius);
         shapes_.push_back({body - 1, false, friction});
     }
-}
-
-Ball Robot::ball(int shape) const {
-    const Ball &own = balls_[static_cast<std::size_t>(shape) - rims_.size()];
-    const int part = shapes_[static_cast<std::size_t>(shape)].part;
-    return {bodies()[static_cast<std::size_t>(part + 1)].point(own.centre), own.radius};
+    if (!own.balls.empty()) {
+        balls_.push_back(own);
+    }
 }
 
 void Robot::scale_friction(int crawler, double share) {

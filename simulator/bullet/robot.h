@@ -18,6 +18,14 @@ struct Ball {
     double radius;           // [m]
 };
 
+// All balls of a body.
+struct BodyBalls {
+    int body;
+    int first_shape;  // number of the first of them among the shapes
+    std::vector<Ball> balls;
+    double farthest;  // that any point of them is from the origin of the body's frame [m]
+};
+
 // Something of the robot that touches the ground, in one point, or another of its bodies.
 struct ContactShape {
     int part;         // as ground_truth_t.contact_part: actuator whose link (or belt) it belongs to; -1: base
@@ -61,10 +69,8 @@ class Robot {
     // the ground.
     int first_solid() const { return static_cast<int>(shapes_.size() - model_.solids.size()); }
     const std::vector<Rim> &rims() const { return rims_; }
-    // They are the shapes after the rims; in the frames of their bodies.
-    const std::vector<Ball> &balls() const { return balls_; }
-    // The ball that is `shape`, which must be neither a rim nor a solid, in the world.
-    Ball ball(int shape) const;
+    // Of the bodies that have any, as they lie in the frames of their bodies; they are the shapes after the rims.
+    const std::vector<BodyBalls> &balls() const { return balls_; }
     // Leaves this share of the friction to the belt of a crawler.
     void scale_friction(int crawler, double share);
 
@@ -101,7 +107,7 @@ class Robot {
     std::vector<Rim> rims_;
     mutable std::vector<PlacedBody> bodies_;  // found when asked for; not by two threads at once
     mutable bool placed_ = false;             // bodies_ are where they belong
-    std::vector<Ball> balls_;
+    std::vector<BodyBalls> balls_;
 };
 
 }  // namespace limphome

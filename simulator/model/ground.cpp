@@ -8,6 +8,12 @@ namespace limphome {
 namespace {
 
 constexpr double edge_radius = 0.03;  // of steps [m]
+// Largest norm that the second derivatives of the spline can have, per size of its values and spacing^2; at a node,
+// where the sums of its weights' second derivatives are 4 and those of the first are 1.
+constexpr double most_bend = 5;
+// Largest gradient that it can have, per size of its values and spacing: along each axis the sum of the weights' first
+// derivatives is 1.5 at most.
+constexpr double steepest = 1.5 * M_SQRT2;
 
 // A bijection in which each bit of the input changes each bit of the output as often as not (Stafford 2011, variant
 // 13).
@@ -17,14 +23,18 @@ uint64_t scatter(uint64_t x) {
     return x ^ x >> 31;
 }
 
-// Weights of four nodes in a row, and their derivatives, at the share `t` of the way from the second to the third.
-Eigen::Vector4d weights(double t) {
-    const double u = 1 - t;
-    return Eigen::Vector4d(u * u * u, 3 * t * t * t - 6 * t * t + 4, 3 * u * u * u - 6 * u * u + 4, t * t * t) / 6;
+// The largest whole number that is not above x; std::floor is a call.
+int64_t whole(double x) {
+    const auto towards_zero = static_cast<int64_t>(x);
+    return towards_zero - (static_cast<double>(towards_zero) > x ? 1 : 0);
 }
-Eigen::Vector4d weight_rates(double t) {
-    const double u = 1 - t;
-    return Eigen::Vector4d(-u * u, 3 * t * t - 4 * t, 4 * u - 3 * u * u, t * t) / 2;
+
+// Factors of u^i in the weights of four nodes in a row, one a column, at the share u of the way from the second to the
+// third.
+Eigen::Matrix4d spline_factors() {
+    Eigen::Matrix4d factors;
+    factors << 1, 4, 1, 0, -3, 0, 3, 0, 3, -6, 3, 0, -1, 3, -3, 1;
+    return factors / 6;
 }
 
 }  // namespace
@@ -36,27 +46,34 @@ double Lattice::at(int64_t column, int64_t row) const {
     return low_ + step_ * static_cast<double>(scatter(key_ ^ node) >> 11);
 }
 
-const Eigen::Matrix4d &Lattice::around(int64_t column, int64_t row) const {
+const Eigen::Matrix4d &Lattice::factors(int64_t column, int64_t row) const {
     Window &window = windows_[static_cast<std::size_t>((row & (side - 1)) * side + (column & (side - 1)))];
     if (window.column != column || window.row != row) {
+        static const Eigen::Matrix4d spline = spline_factors();
         window.column = column;
         window.row = row;
+        Eigen::Matrix4d nodes;
         for (int j = 0; j < 4; j++) {
             for (int i = 0; i < 4; i++) {
-                window.nodes(i, j) = at(column + i - 1, row + j - 1);
+                nodes(i, j) = at(column + i - 1, row + j - 1);
             }
         }
+        window.factors = spline * nodes * spline.transpose();
     }
-    return window.nodes;
+    return window.factors;
 }
 
 Eigen::Vector3d Lattice::smooth(double x, double y) const {
-    const double column = std::floor(x / spacing_), row = std::floor(y / spacing_);
-    const double tx = x / spacing_ - column, ty = y / spacing_ - row;
-    const Eigen::Matrix4d &nodes = around(static_cast<int64_t>(column), static_cast<int64_t>(row));
-    const Eigen::Vector4d along = weights(ty), sums = nodes * along;
-    const Eigen::Vector4d across = weights(tx);
-    return {across.dot(sums), weight_rates(tx).dot(sums) / spacing_, across.dot(nodes * weight_rates(ty)) / spacing_};
+    const double across_nodes = x / spacing_, along_nodes = y / spacing_;
+    const int64_t column = whole(across_nodes), row = whole(along_nodes);
+    const double u = across_nodes - static_cast<double>(column), v = along_nodes - static_cast<double>(row);
+    const Eigen::Matrix4d &f = factors(column, row);
+    // polynomials in u of which the value and its derivative along v are made
+    const Eigen::Vector4d value = f.col(0) + v * (f.col(1) + v * (f.col(2) + v * f.col(3)));
+    const Eigen::Vector4d rate = f.col(1) + v * (2 * f.col(2) + (3 * v) * f.col(3));
+    return {value[0] + u * (value[1] + u * (value[2] + u * value[3])),
+            (value[1] + u * (2 * value[2] + 3 * u * value[3])) / spacing_,
+            (rate[0] + u * (rate[1] + u * (rate[2] + u * rate[3]))) / spacing_};
 }
 
 double Lattice::cell(double x, double y) const {
@@ -67,7 +84,11 @@ Ground::Ground(const settings &s)
     : level_(s.ground.incline_along_rad == 0 && s.ground.incline_across_rad == 0 && s.ground.rough_amplitude_m == 0 &&
              s.ground.step_height_m == 0),
       slope_(std::tan(s.ground.incline_across_rad), std::tan(s.ground.incline_along_rad)),
+      amplitude_(s.ground.rough_amplitude_m),
       highest_(s.ground.rough_amplitude_m + s.ground.step_height_m),
+      bend_(most_bend * s.ground.rough_amplitude_m / std::pow(0.5 * s.ground.rough_wavelength_m, 2)),
+      longest_normal_(
+          std::hypot(1, slope_.norm() + steepest * s.ground.rough_amplitude_m / (0.5 * s.ground.rough_wavelength_m))),
       step_height_(s.ground.step_height_m),
       step_spacing_(s.ground.step_spacing_m),
       rough_(s.ground.rough_amplitude_m > 0),
@@ -112,8 +133,8 @@ Clearance Ground::over_strips(const Eigen::Vector3d &point, const Clearance &bas
 }
 
 Clearance Ground::clearance(const Eigen::Vector3d &point, int piece) const {
-    const Clearance base = over_base(point);
-    return piece == 0 ? base : over_strips(point, base);
+    const Clearance over = over_base(point);
+    return piece == base_piece ? over : over_strips(point, over);
 }
 
 Clearance Ground::clearance(const Eigen::Vector3d &point) const {

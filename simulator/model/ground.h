@@ -26,15 +26,15 @@ class Lattice {
     double cell(double x, double y) const;
 
    private:
-    // The nodes on which the spline depends from (column, row) to the next ones.
+    // The spline from (column, row) to the next nodes: sum(factors(i, j) u^i v^j) at the shares u and v of the way.
     struct Window {
         int64_t column = std::numeric_limits<int64_t>::min(), row = 0;
-        Eigen::Matrix4d nodes;
+        Eigen::Matrix4d factors;
     };
     static constexpr int64_t side = 8;
 
     double at(int64_t column, int64_t row) const;
-    const Eigen::Matrix4d &around(int64_t column, int64_t row) const;
+    const Eigen::Matrix4d &factors(int64_t column, int64_t row) const;
 
     uint64_t key_;
     double low_, step_;
@@ -54,6 +54,8 @@ class Ground {
    public:
     explicit Ground(const settings &configuration);
 
+    static constexpr int base_piece = 0;  // incline and rough ground
+
     int pieces() const { return step_height_ > 0 ? 2 : 1; }
     // Against one piece. Exact for inclines and steps, to first order over rough ground. Edges of steps are rounded.
     Clearance clearance(const Eigen::Vector3d &point, int piece) const;
@@ -62,10 +64,16 @@ class Ground {
 
     // z = 0 everywhere; friction may still differ.
     bool level() const { return level_; }
+    // Told at a glance: no piece is within `distance` of the point.
+    bool is_far(const Eigen::Vector3d &point, double distance) const {
+        return point.z() - slope_.dot(point.head<2>()) - amplitude_ > (step_height_ + distance) * longest_normal_;
+    }
     // Height of the surface, seen from above [m].
     double height(double x, double y) const;
     // No point of the ground is higher above the incline [m].
     double highest() const { return highest_; }
+    // The gradient of the base's height changes by no more than this per metre [1/m].
+    double bend() const { return bend_; }
     // Unit normal of the incline.
     Eigen::Vector3d incline() const;
     // Share of the friction that is left.
@@ -77,7 +85,8 @@ class Ground {
 
     bool level_;
     Eigen::Vector2d slope_;  // rise per metre along x and y
-    double highest_;
+    double amplitude_, highest_, bend_;
+    double longest_normal_;  // per its part upwards
     double step_height_, step_spacing_;
     bool rough_, patched_;
     double patch_share_, patch_friction_;
