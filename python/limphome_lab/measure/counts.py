@@ -141,6 +141,7 @@ def main():
     )
     parser.add_argument("--record", action="store_true", help="write test/counts.txt anew, the boards' too: minutes")
     args = parser.parse_args()
+    recorded, made_by = read() if RECORD.exists() or not args.record else ({}, None)
     counts = {}
     for name, count in COUNTED.items():
         print(f"counting {name}", file=sys.stderr, flush=True)
@@ -149,7 +150,6 @@ def main():
         record(counts | boards())
         print(paths.shown(RECORD))
         return 0
-    recorded, made_by = read()
     allowed = tolerance(made_by)
     lines, more = compare(counts, recorded, allowed)
     print(*lines, sep="\n")

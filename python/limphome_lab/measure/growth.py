@@ -11,6 +11,7 @@ from pathlib import Path
 
 from limphome_lab import command, network, paths
 from limphome_lab.ending import Ending, with_exit_code
+from limphome_lab.run.processes import Child, raise_on_signals
 
 ROUNDS = 5
 GROUNDS = {  # settings of each
@@ -200,9 +201,13 @@ def study_seconds(runs, cores):
         table.write_text(STUDY.format(episodes=STUDY_EPISODES, runs=runs))
         words = [sys.executable, "-m", "limphome_lab.study.study", table, "--out", f"{folder}/study", "--cores", cores]
         began = time.monotonic()
-        result = subprocess.run([*map(str, words)], capture_output=True, text=True)
-        if result.returncode != 0:
-            raise Ending(f"the study of {runs} runs ended with exit code {result.returncode}\n{result.stderr}")
+        study = Child("study", [*map(str, words)], Path(folder) / "study.log")
+        try:
+            code = study.process.wait()
+        finally:
+            study.stop()  # with its runs
+        if code != 0:
+            raise Ending(f"the study of {runs} runs ended with exit code {code}\n{study.log_tail()}")
         return time.monotonic() - began
 
 
@@ -235,6 +240,7 @@ def main():
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     network.enter("private")
+    raise_on_signals()
     measured = {}
     for name, measure in MEASURED.items():
         say(f"measuring {name}")

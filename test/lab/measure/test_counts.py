@@ -1,5 +1,7 @@
 """scripts/counts: what is recorded is read and compared, and a file that is none is refused."""
 
+import sys
+
 import pytest
 
 from limphome_lab.ending import InputError
@@ -46,3 +48,15 @@ def test_reads_what_a_board_says():
 43: 39: instructions per decision, mean:  94930
 """
     assert counts.SAID_BY_BOARD.findall(said) == [("planner", "2759410"), ("q_learning", "94930")]
+
+
+def test_bad_record_is_told_before_anything_is_counted(monkeypatch, capsys):
+    def read():
+        raise InputError("counts.txt:3: no number")
+
+    monkeypatch.setattr(counts, "read", read)
+    monkeypatch.setattr(counts, "COUNTED", {"decision": lambda: pytest.fail("counted")})
+    for words in (["counts"], ["counts", "--record"]):
+        monkeypatch.setattr(sys, "argv", words)
+        assert counts.main() == 2
+        assert "counts.txt:3" in capsys.readouterr().err
