@@ -14,10 +14,12 @@
 //
 // Takes the options of limphome-simulator. Exit 1: the machine diverged; 2: bad input.
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <ctime>
 #include <exception>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -51,6 +53,11 @@ void print(const char *name, const double *values, int count) {
 bool on_grid(double nodes) {
     constexpr double most_nodes = 1000;
     return nodes >= 1 && nodes <= most_nodes;
+}
+
+// As messages count them.
+bool is_episode(double number) {
+    return number >= 0 && number <= std::numeric_limits<int32_t>::max();
 }
 
 class Instrument {
@@ -93,7 +100,7 @@ void Instrument::obey(const std::string &line) {
 
 bool Instrument::act(const std::string &verb, const std::vector<double> &numbers) {
     const std::size_t count = numbers.size();
-    if (verb == "reset" && count == 1) {
+    if (verb == "reset" && count == 1 && is_episode(numbers[0])) {
         world_.reset(static_cast<int64_t>(numbers[0]));
     } else if (verb == "command" && count <= max_actuators) {
         command(numbers);
