@@ -51,5 +51,5 @@ int main(int argc, char **argv) {
         fprintf(stderr, "%s\n", r.error);
         return ENDING_BAD_INPUT;
     }
-    return ending_close(&r, run_decide(&r, &stop));
+    return (int)ending_close(&r, run_decide(&r, &stop));
 }

@@ -24,7 +24,19 @@ PAGES = (
     "CMakeLists.txt",
     "CMakePresets.json",
 )
-FOLDERS = ("config", "controller", "docs", "examples", "lcmtypes", "python", "robot", "scripts", "simulator", "test")
+FOLDERS = (
+    "config",
+    "controller",
+    "docs",
+    "examples",
+    "lcmtypes",
+    "pair",
+    "python",
+    "robot",
+    "scripts",
+    "simulator",
+    "test",
+)
 SECTIONS = "briefdescription detaileddescription innerclass public-attrib define enum typedef func var"
 ROOMS = {
     "": "The controller: one call per decision",

@@ -144,14 +144,18 @@ int udpm_fileno(const udpm *bus) {
     return bus->receiver;
 }
 
+static int64_t now_us(clockid_t clock) {
+    struct timespec now;
+    clock_gettime(clock, &now);
+    return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
+}
+
 /* Hands a message to whoever subscribed to its channel; whether anybody has. */
 static bool hand_over(udpm *bus, const char *channel, void *data, size_t size) {
-    struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
     const lcm_recv_buf_t buffer = {
         .data = data,
         .data_size = (uint32_t)size,
-        .recv_utime = (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000,
+        .recv_utime = now_us(CLOCK_REALTIME),
     };
     bool heard = false;
     for (int i = 0; i < bus->num_subscriptions; i++) {
@@ -195,12 +199,6 @@ static int poll_receiver(const udpm *bus, int milliseconds) {
     return count < 0 && errno == EINTR ? 0 : count;
 }
 
-static double now_us(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec * 1e6 + (double)now.tv_nsec * 1e-3;
-}
-
 /* Looks again and again for what is about to come: to be woken takes as long as many an answer, some 25 us. Where
  * nothing came, as the answer takes longer or whoever gives it needs this very core, it is done half as often. */
 static int watch(udpm *bus) {
@@ -208,11 +206,11 @@ static int watch(udpm *bus) {
         bus->asleep--;
         return 0;
     }
-    const double end = now_us() + WATCH_US;
+    const int64_t end = now_us(CLOCK_MONOTONIC) + WATCH_US;
     int count;
     do {
         count = poll_receiver(bus, 0);
-    } while (count == 0 && now_us() < end);
+    } while (count == 0 && now_us(CLOCK_MONOTONIC) < end);
     bus->vain = count != 0 ? 0 : bus->vain < MOST_VAIN ? 2 * bus->vain + 1 : MOST_VAIN;
     bus->asleep = bus->vain;
     return count;

@@ -13,9 +13,9 @@ namespace limphome {
 struct Contact {
     int shape;                // index into Robot::shapes()
     int other;                // as in Touch
-    Eigen::Vector3d point;    // [m]
+    Eigen::Vector3d point;    // in the middle of the time step [m]
     Eigen::Matrix3d frame;    // columns: normal from the other into the shape, two tangents
-    double depth;             // of penetration; below 0: gap [m]
+    double depth;             // of penetration at its beginning; below 0: gap [m]
     double friction;          // Coulomb coefficient
     double firmness;          // how much stiffer than the ground it is
     Eigen::Vector3d impulse;  // of the other on the shape along the columns of frame [N s]

@@ -5,6 +5,12 @@
 #include <limits>
 
 namespace limphome {
+namespace {
+
+// A joint that lacks less than this of its target has come to it [rad/s].
+constexpr double reached = 1e-5;
+
+}  // namespace
 
 const GeneralVector &Solver::solve(const GeneralMatrix &mass, const GeneralVector &momentum,
                                    std::vector<JointConstraint> &joints, std::vector<Contact> &contacts,
@@ -103,8 +109,10 @@ bool Solver::release_overloaded(std::vector<JointConstraint> &joints, const std:
         }
     }
     if (!released) {
-        for (JointConstraint &joint : joints) {
-            joint.held = joint.held || std::abs(joint.impulse) < joint.limit;
+        for (std::size_t j = 0; j < joints.size(); j++) {
+            JointConstraint &joint = joints[j];
+            const double missing = joint.target - velocity_[base_dofs + static_cast<Eigen::Index>(j)];
+            joint.held = joint.held || std::abs(joint.impulse) < joint.limit || std::abs(missing) < reached;
         }
     }
     return released;

@@ -1,4 +1,5 @@
-/* The straightforward loop over (13)(14), (3) and (19)-(21) as the exact gradient, with libm. Compiled with REAL float and double. */
+/* The straightforward loop over (13)(14), (3) and (19)-(21) as the exact gradient, with libm. Compiled with REAL float
+ * and double. */
 #include <tgmath.h>
 
 #include "decision.h"

@@ -39,7 +39,7 @@ def installed(tmp_path_factory):
 def prefix(tmp_path):
     """Programs and files where `cmake --install` puts them."""
     (tmp_path / "prefix" / "bin").mkdir(parents=True)
-    for name in ("controller", "simulator", "describe"):
+    for name in ("controller", "simulator", "pair", "describe"):
         shutil.copy(paths.program(name), tmp_path / "prefix" / "bin")
     shutil.copytree(paths.library("environment").parent, tmp_path / "prefix" / "lib" / "limphome")
     shutil.copytree(paths.CONFIG, tmp_path / "prefix" / "share" / "limphome" / "config")

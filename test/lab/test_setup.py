@@ -45,7 +45,7 @@ def tree():
         for name in ("scripts/setup", "CMakeLists.txt", "CMakePresets.json"):
             (tree / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, tree / name)
-        for name in ("cmake", "config", "controller", "lcmtypes", "robot", "simulator"):
+        for name in ("cmake", "config", "controller", "lcmtypes", "pair", "robot", "simulator"):
             (tree / name).mkdir()
         (tree / "scripts" / "packages.txt").write_text("dpkg\n")
         (tree / "scripts" / "requirements.txt").write_text("nothing\n")

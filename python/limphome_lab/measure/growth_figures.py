@@ -23,18 +23,28 @@ def _panels(count, width=SIZE[0]):
     return plt.subplots(1, count, figsize=(width, SIZE[1]), layout="constrained")
 
 
+def _from_zero(values):
+    return 0, 1.1 * max(values)
+
+
+def _usual(points):
+    """Without the few in which the machine did something else [µs]."""
+    seconds = np.array([each[1] for ground in points.values() for each in ground])
+    return 1e6 * seconds[seconds <= np.quantile(seconds, 0.98)]
+
+
 def _step(measured):
     figure, (joints, contacts, grounds) = _panels(3, 11)
     x, seconds = np.array(measured["step_over_joints"]).T
     joints.plot(x, 1e6 * seconds, color=style.BLUE, marker="o")
-    joints.set(xlabel="joints of the arm, swing included", ylabel="a step [µs]", ylim=(0, None), xticks=x)
-    number, seconds = np.array(measured["step_over_contacts"]).T
-    contacts.scatter(number, 1e6 * seconds, color=style.FAINT, s=10, linewidths=0)
-    whole = np.round(number)
-    middle = [(n, np.median(seconds[whole == n])) for n in np.unique(whole) if np.sum(whole == n) >= 5]
-    x, median = np.array(middle).T
-    contacts.plot(x, 1e6 * median, color=style.BLUE, marker="o", label="median")
-    contacts.set(xlabel="points of contact", ylim=(0, 1.3e6 * np.quantile(seconds, 0.98)))
+    joints.set(
+        xlabel="joints of the arm, swing included", ylabel="a step [µs]", ylim=_from_zero(1e6 * seconds), xticks=x
+    )
+    for number, (ground, points) in enumerate(measured["step_over_contacts"].items()):
+        touching, seconds = np.array(points).T
+        colour = style.series(number)[0]
+        contacts.scatter(touching, 1e6 * seconds, color=colour, s=12, alpha=0.5, linewidths=0, label=ground)
+    contacts.set(xlabel="points of contact", ylim=_from_zero(_usual(measured["step_over_contacts"])))
     contacts.legend()
     kinds = measured["step_over_grounds"]
     grounds.bar(list(kinds), [1e6 * value for value in kinds.values()], color=style.BLUE, width=0.6)
@@ -49,14 +59,14 @@ def _decision(curves):
     for axes, curve, label in ((units, "units", "units of the network"), (actions, "actions", "joint actions")):
         x, seconds = np.array(curves[curve]).T
         axes.plot(x, 1e6 * seconds, color=style.BLUE, marker="o")
-        axes.set(xlabel=label, ylim=(0, None))
-    units.set(ylabel="a decision [µs]", title="Q-learning, 81 actions")
-    actions.set(title="Q-learning, 50 units", xscale="log", yscale="log", ylim=(None, None))
+        axes.set(xlabel=label)
+    units.set(ylabel="a decision [µs]", title="Q-learning, 81 actions", ylim=(0, None))
+    actions.set(title="Q-learning, 50 units", xscale="log", yscale="log")
     for number, (curve, label) in enumerate((("samples", "measurements kept"), ("postures", "postures planned for"))):
         x, seconds = np.array(curves[curve]).T
         colour, _, marker = style.series(number)
         planner.plot(x, 1e6 * seconds, color=colour, marker=marker, label=label)
-    planner.set(title="Planner", xlabel="of either", ylim=(0, None))
+    planner.set(title="Planner", xlabel="of either", ylim=(0, None), ylabel="a decision [µs]")
     planner.legend()
     figure.suptitle("Processor time of a decision")
     return figure

@@ -8,27 +8,27 @@ import resource
 import subprocess
 import sys
 import tempfile
-import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from limphome_lab.ending import Ending, InputError
 from limphome_lab.study.plan import Plan
 
-# Beside what a job itself takes, measured as docs/performance.md tells.
-LOCAL_JOB_S = 0.0  # of a core: Snakemake starts a job
-SLURM_JOB_S = 0.0  # of a core: a job starts Snakemake, which starts the run
-SLURM_SUBMIT_S = 0.0  # of the one process that submits all jobs
+# Beside what the runs themselves take, as docs/performance.md tells how it was measured:
+STUDY_S = 4.0  # of a core: Snakemake starts, and the report is written
+LOCAL_JOB_S = 0.05  # of a core: Snakemake starts a job
+SLURM_JOB_S = 4.0  # of a core: it submits a job, which starts a Snakemake of its own, which starts the run
+SLURM_SUBMIT_S = 0.3  # of that, in the one process that submits all jobs
 SLURM_STATUS_S = 40.0  # between two looks of Snakemake's at its jobs
-FILES_OF_A_JOB = 2  # its log, and what Snakemake notes of it
+FILES_OF_A_JOB = 3  # its log, and what Snakemake notes of it
+FILES_OF_A_STUDY = 24  # report, plan and figures, and Snakemake's own
 
 
 @dataclass
 class Cost:
     """Of a job, or of many."""
 
-    wall_s: float = 0.0
-    core_s: float = 0.0
+    core_s: float = 0.0  # processor time: what a core of its own would take, whatever else this machine does
     files: int = 0  # folders, too
     bytes: int = 0
     jobs: int = 0
@@ -59,15 +59,15 @@ def jobs_at_a_time(profile):
 
 def measured(command, out):
     """Makes what a job makes in the folder `out`; returns its Cost."""
-    before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     result = subprocess.run([*command, "--out", str(out)], capture_output=True, text=True)
-    wall, after = time.monotonic() - began, resource.getrusage(resource.RUSAGE_CHILDREN)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
     if result.returncode != 0:
         raise Ending(f"a run to measure ended with exit code {result.returncode}:\n{result.stderr}")
     made = [out, *out.rglob("*")]
     core = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     size = sum(file.lstat().st_blocks * 512 for file in made)
-    return Cost(wall, core, len(made), size, 1)
+    return Cost(core, len(made), size, 1)
 
 
 def of_each_case(wanted, together):
@@ -88,15 +88,17 @@ def total(costs, seeds):
     return sum((cost * seeds for cost in costs), Cost())
 
 
+def with_start(cost, slurm):
+    """Processor time of jobs, that of starting them included [s]."""
+    return cost.core_s + cost.jobs * (SLURM_JOB_S if slurm else LOCAL_JOB_S)
+
+
 def wall_s(cost, longest, slots, slurm):
     """How long a study takes on so many cores: no less than its longest seed, nor than to submit its jobs."""
-    working = max((cost.wall_s + cost.jobs * (SLURM_JOB_S if slurm else LOCAL_JOB_S)) / slots, longest.wall_s)
-    return max(working, cost.jobs * SLURM_SUBMIT_S) + SLURM_STATUS_S if slurm else working
-
-
-def core_s(cost, slurm):
-    """What the cluster counts: a core, as long as a job has it."""
-    return cost.wall_s + cost.jobs * (SLURM_JOB_S if slurm else LOCAL_JOB_S)
+    working = max(with_start(cost, slurm) / slots, with_start(longest, slurm))
+    if slurm:
+        working = max(working, cost.jobs * SLURM_SUBMIT_S) + SLURM_STATUS_S
+    return working + STUDY_S
 
 
 def tell(wanted, text, profile, together):
@@ -106,10 +108,10 @@ def tell(wanted, text, profile, together):
     costs = list(of_each_case(wanted, together))
     cost = total(costs, seeds)
     slots = min(nodes * cores, allowed or nodes * cores)
-    longest = max(costs, key=lambda each: each.wall_s)
+    longest = max(costs, key=lambda each: each.core_s)
     print(f"runs        {len(costs) * seeds}, with evaluations {cost.jobs} jobs")
-    print(f"core hours  {core_s(cost, profile) / 3600:.3g}")
-    print(f"files       {cost.files + cost.jobs * FILES_OF_A_JOB}")
+    print(f"core hours  {(with_start(cost, profile) + STUDY_S) / 3600:.3g}")
+    print(f"files       {cost.files + cost.jobs * FILES_OF_A_JOB + FILES_OF_A_STUDY}")
     print(f"disk        {cost.bytes / 1e9:.3g} GB")
     print(f"wall hours  {wall_s(cost, longest, slots, profile) / 3600:.3g} on {nodes} x {cores} cores")
     if slots < nodes * cores:

@@ -110,7 +110,7 @@ auto rate(Robot &robot, const GeneralVector &acceleration, const Measure &measur
         const GeneralVector mean = velocity + 0.5 * seconds * acceleration;
         robot.move(mean, seconds);
         robot.move(velocity + seconds * acceleration, 0);
-        const auto measured = measure(robot);
+        auto measured = measure(robot);
         robot.move(mean, -seconds);
         return measured;
     };
