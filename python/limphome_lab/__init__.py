@@ -9,7 +9,7 @@ room but those named here (test/lab/test_rooms.py):
     gym      the task for learners of others            run
     export   a run as files of other tools              show
     study    many runs side by side                     show, run
-    measure  simulator, speed, the tests themselves     run
+    measure  simulator, speed, the tests themselves     run, show
 
 The top uses no room. `limphome`, the package of message types, is made by lcm-gen and lies beside this one.
 """

@@ -129,12 +129,13 @@ int main(void) {
     }
     const uint32_t stack = used_stack(__builtin_frame_address(0));
     const uint32_t mean = (uint32_t)(t.sum / t.number);
+    const bool is_planner = controller.learner.kind == LH_PLANNER;
+    platform_say(is_planner ? "planner\n" : "q_learning\n");
     say_number("instructions per decision, least: ", t.least);
     say_number("instructions per decision, mean:  ", mean);
     say_number("instructions per decision, most:  ", t.most);
     say_number("stack of a decision [bytes]:      ", stack);
     say_number("lh_controller [bytes]:            ", sizeof(lh_controller));
-    const bool is_planner = controller.learner.kind == LH_PLANNER;
     const bool beyond = t.most > (is_planner ? PLANNER_LIMIT : Q_LEARNING_LIMIT) || stack > STACK_LIMIT;
     return beyond || is_more(mean, is_planner ? PLANNER_RECORDED : Q_LEARNING_RECORDED) ? 1 : 0;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "limphome/base/elementary.h"
+#include "limphome/base/lanes.h"
 #include "limphome/body/kinematics.h"
 
 /* Friction that grows with the slip at first lets Newton's method find the way; then it is made steeper and steeper. */
@@ -100,32 +101,72 @@ void lh_footing_find(const lh_robot *robot, const float *joint_angle, const lh_r
     footing->pull_y = footing->level ? 0.0f : -up.y / (up.z * friction);
 }
 
+/* Motions are found side by side; one after the other where there are no vectors. */
+#if LH_VECTOR_WIDTH > 1
+#define WIDTH LH_MOTIONS
+typedef float lanes __attribute__((vector_size(4 * WIDTH)));
+#else
+#define WIDTH 1
+typedef float lanes;
+#endif
+
+typedef struct twists {
+    lanes forward, sideways, turn;
+} twists;
+
+/* x in every lane; its sign, too, where it is 0. */
+static inline lanes everywhere(float x) {
+    const lanes zero = {0.0f};
+    return x - zero;
+}
+
+static inline lanes square_roots(lanes x) {
+    float each[WIDTH];
+    memcpy(each, &x, sizeof each);
+    for (int32_t m = 0; m < WIDTH; m++) {
+        each[m] = __builtin_sqrtf(each[m]);
+    }
+    memcpy(&x, each, sizeof each);
+    return x;
+}
+
+/* What brings a reach down to `most`, where it is more. */
+static inline lanes shortened(lanes reach, float most) {
+    float each[WIDTH];
+    memcpy(each, &reach, sizeof each);
+    for (int32_t m = 0; m < WIDTH; m++) {
+        each[m] = each[m] > most ? most / each[m] : 1.0f;
+    }
+    memcpy(&reach, each, sizeof each);
+    return reach;
+}
+
 /* One step of Newton's method towards the least sum of load * sqrt(|slip|^2 + softness^2). */
-static void improve(const lh_footing *footing, const float *shift_x, const float *shift_y, float softness,
-                    lh_twist *twist) {
+static void improve(const lh_footing *footing, const lanes *shift_x, const lanes *shift_y, float softness,
+                    twists *twist) {
     /* gradient, and the upper half of the symmetric Hessian, in the order forward, sideways, turn */
-    float g0 = -footing->pull_x;
-    float g1 = -footing->pull_y;
-    float g2 = 0.0f;
-    float h00 = SMALL;
-    float h01 = 0.0f;
-    float h02 = 0.0f;
-    float h11 = SMALL;
-    float h12 = 0.0f;
-    float h22 = SMALL;
+    lanes g0 = everywhere(-footing->pull_x);
+    lanes g1 = everywhere(-footing->pull_y);
+    lanes g2 = everywhere(0.0f);
+    lanes h00 = everywhere(SMALL);
+    lanes h01 = everywhere(0.0f);
+    lanes h02 = h01;
+    lanes h11 = h00;
+    lanes h12 = h01;
+    lanes h22 = h00;
     for (int32_t i = 0; i < footing->count; i++) {
         float x = footing->x[i];
         float y = footing->y[i];
-        float slip_x = twist->forward - twist->turn * y + shift_x[i];
-        float slip_y = twist->sideways + twist->turn * x + shift_y[i];
-        float inverse = 1.0f / lh_sqrt(slip_x * slip_x + slip_y * slip_y + softness * softness);
-        float weight = footing->load[i] * inverse;
-        float force_x = weight * slip_x;
-        float force_y = weight * slip_y;
-        float bend = weight * inverse * inverse;
-        float xx = weight - bend * slip_x * slip_x;
-        float xy = -bend * slip_x * slip_y;
-        float yy = weight - bend * slip_y * slip_y;
+        lanes slip_x = twist->forward - twist->turn * y + shift_x[i];
+        lanes slip_y = twist->sideways + twist->turn * x + shift_y[i];
+        lanes inverse = 1.0f / square_roots(slip_x * slip_x + slip_y * slip_y + softness * softness);
+        lanes weight = footing->load[i] * inverse;
+        lanes force_x = weight * slip_x;
+        lanes force_y = weight * slip_y;
+        lanes bend = weight * inverse * inverse;
+        lanes xx = weight - bend * slip_x * slip_x;
+        lanes xy = -bend * slip_x * slip_y;
+        lanes yy = weight - bend * slip_y * slip_y;
         g0 += force_x;
         g1 += force_y;
         g2 += x * force_y - y * force_x;
@@ -137,37 +178,69 @@ static void improve(const lh_footing *footing, const float *shift_x, const float
         h22 += x * (x * yy - y * xy) - y * (x * xy - y * xx);
     }
     /* by elimination; the Hessian is positive definite */
-    float l1 = h01 / h00;
-    float l2 = h02 / h00;
-    float d1 = h11 - l1 * h01;
-    float d12 = h12 - l1 * h02;
-    float l12 = d12 / d1;
-    float d2 = h22 - l2 * h02 - l12 * d12;
-    float r1 = g1 - l1 * g0;
-    float turn = (g2 - l2 * g0 - l12 * r1) / d2;
-    float sideways = (r1 - d12 * turn) / d1;
-    float forward = (g0 - h01 * sideways - h02 * turn) / h00;
-    float reach = lh_sqrt(forward * forward + sideways * sideways + turn * turn);
-    float scale = reach > footing->travel ? footing->travel / reach : 1.0f;
+    lanes l1 = h01 / h00;
+    lanes l2 = h02 / h00;
+    lanes d1 = h11 - l1 * h01;
+    lanes d12 = h12 - l1 * h02;
+    lanes l12 = d12 / d1;
+    lanes d2 = h22 - l2 * h02 - l12 * d12;
+    lanes r1 = g1 - l1 * g0;
+    lanes turn = (g2 - l2 * g0 - l12 * r1) / d2;
+    lanes sideways = (r1 - d12 * turn) / d1;
+    lanes forward = (g0 - h01 * sideways - h02 * turn) / h00;
+    lanes reach = square_roots(forward * forward + sideways * sideways + turn * turn);
+    lanes scale = shortened(reach, footing->travel);
     twist->forward -= scale * forward;
     twist->sideways -= scale * sideways;
     twist->turn -= scale * turn;
 }
 
-lh_twist lh_quasi_static_motion(const lh_footing *footing, int32_t num_actuators, const float *share) {
-    float shift_x[LH_MAX_SUPPORTS] = {0.0f};
-    float shift_y[LH_MAX_SUPPORTS] = {0.0f};
+/* WIDTH motions; those beyond `count` are the first. */
+static twists find_side_by_side(const lh_footing *footing, int32_t num_actuators, int32_t count,
+                                const lh_shares *share) {
+    lanes shift_x[LH_MAX_SUPPORTS];
+    lanes shift_y[LH_MAX_SUPPORTS];
+    memset(shift_x, 0, sizeof shift_x);
+    memset(shift_y, 0, sizeof shift_y);
     for (int32_t k = 0; k < num_actuators; k++) {
-        for (int32_t i = 0; share[k] != 0.0f && i < footing->count; i++) {
-            shift_x[i] += share[k] * footing->shift_x[k][i];
-            shift_y[i] += share[k] * footing->shift_y[k][i];
+        float each[WIDTH];
+        bool moves = false;
+        for (int32_t m = 0; m < WIDTH; m++) {
+            each[m] = share[m < count ? m : 0].of[k];
+            moves = moves || each[m] != 0.0f;
+        }
+        lanes shares;
+        memcpy(&shares, each, sizeof shares);
+        for (int32_t i = 0; moves && i < footing->count; i++) {
+            shift_x[i] += shares * footing->shift_x[k][i];
+            shift_y[i] += shares * footing->shift_y[k][i];
         }
     }
-    lh_twist twist = {0.0f, 0.0f, 0.0f};
+    twists twist = {everywhere(0.0f), everywhere(0.0f), everywhere(0.0f)};
     float softness = SOFTNESS * footing->travel;
     for (int32_t i = 0; footing->count > 0 && i < ITERATIONS; i++) {
         improve(footing, shift_x, shift_y, softness, &twist);
         softness *= HARDENING;
     }
+    return twist;
+}
+
+void lh_quasi_static_motions(const lh_footing *footing, int32_t num_actuators, int32_t count, const lh_shares *share,
+                             lh_twist *twist) {
+    for (int32_t first = 0; first < count; first += WIDTH) {
+        twists found = find_side_by_side(footing, num_actuators, count - first, &share[first]);
+        float part[3][WIDTH];
+        memcpy(part, &found, sizeof part);
+        for (int32_t m = 0; m < WIDTH && first + m < count; m++) {
+            twist[first + m] = (lh_twist){part[0][m], part[1][m], part[2][m]};
+        }
+    }
+}
+
+lh_twist lh_quasi_static_motion(const lh_footing *footing, int32_t num_actuators, const float *share) {
+    lh_shares shares;
+    memcpy(shares.of, share, sizeof(float) * (size_t)num_actuators);
+    lh_twist twist;
+    lh_quasi_static_motions(footing, num_actuators, 1, &shares, &twist);
     return twist;
 }

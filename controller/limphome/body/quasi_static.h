@@ -41,7 +41,19 @@ typedef struct lh_twist {
 void lh_footing_find(const lh_robot *robot, const float *joint_angle, const lh_rest *rest, lh_vec3 up,
                      const float *travel, float friction, lh_footing *footing);
 
-/* The motion when actuator k of num_actuators goes share[k], -1 to 1, of its travel. */
+#define LH_MOTIONS 4 /* found at a time */
+
+/* How far each actuator goes, of its travel: of[num_actuators], -1 to 1. */
+typedef struct lh_shares {
+    float of[LH_MAX_ACTUATORS];
+} lh_shares;
+
+/* Where the body goes by share[m] of each of `count` motions, 1 to LH_MOTIONS, into twist[count]. Several at a time
+ * take little longer than one on processors with vectors. */
+void lh_quasi_static_motions(const lh_footing *footing, int32_t num_actuators, int32_t count, const lh_shares *share,
+                             lh_twist *twist);
+
+/* One of them, by share[num_actuators]. */
 lh_twist lh_quasi_static_motion(const lh_footing *footing, int32_t num_actuators, const float *share);
 
 #ifdef __cplusplus

@@ -50,28 +50,37 @@ void lh_planning_assess(lh_planner *planner) {
     }
 }
 
+/* What mechanics says of `count` actions from `first` on. */
+static void expect_some(const lh_planner *planner, int32_t first, int32_t count, lh_outlook *outlook) {
+    const lh_planned *planned = &planner->planned;
+    lh_shares share[LH_MOTIONS];
+    memset(share, 0, sizeof share);
+    for (int32_t m = 0; m < count; m++) {
+        for (int32_t k = 0; k < planned->count; k++) {
+            share[m].of[planned->actuator[k]] = (float)(planned->level[first + m][k] - 1);
+        }
+    }
+    lh_quasi_static_motions(&outlook->footing, planner->robot.num_actuators, count, share, &outlook->expected[first]);
+}
+
 /* What mechanics says each action does. Where the arm does not carry, its joints do not matter, and the crawlers'
  * digits, which are the lowest of an action's number, decide alone. On level ground the opposite of an action, its
  * number counted from the end, does the opposite. */
 static void expect(const lh_planner *planner, lh_outlook *outlook) {
     const lh_planned *planned = &planner->planned;
-    const lh_footing *footing = &outlook->footing;
     lh_twist *expected = outlook->expected;
     int32_t different = outlook->rest.braced ? planned->num_actions : planned->num_crawler_actions;
-    for (int32_t a = 0; a < planned->num_actions; a++) {
-        int32_t opposite = planned->num_actions - 1 - a;
-        if (a >= different) {
-            expected[a] = expected[a - different];
-        } else if (footing->level && opposite < a) {
-            const lh_twist *other = &expected[opposite];
-            expected[a] = (lh_twist){-other->forward, -other->sideways, -other->turn};
-        } else {
-            float share[LH_MAX_ACTUATORS] = {0.0f};
-            for (int32_t k = 0; k < planned->count; k++) {
-                share[planned->actuator[k]] = (float)(planned->level[a][k] - 1);
-            }
-            expected[a] = lh_quasi_static_motion(footing, planner->robot.num_actuators, share);
-        }
+    int32_t found = outlook->footing.level ? (different + 1) / 2 : different;
+    for (int32_t first = 0; first < found; first += LH_MOTIONS) {
+        int32_t rest = found - first;
+        expect_some(planner, first, rest < LH_MOTIONS ? rest : LH_MOTIONS, outlook);
+    }
+    for (int32_t a = found; a < different; a++) {
+        const lh_twist *opposite = &expected[different - 1 - a];
+        expected[a] = (lh_twist){-opposite->forward, -opposite->sideways, -opposite->turn};
+    }
+    for (int32_t a = different; a < planned->num_actions; a++) {
+        expected[a] = expected[a - different];
     }
 }
 

@@ -16,9 +16,10 @@ from limphome_lab.study.plan import Plan
 
 # Beside what the runs themselves take, as docs/performance.md tells how it was measured:
 STUDY_S = 4.0  # of a core: Snakemake starts, and the report is written
+PLANNED_JOB_S = 0.009  # of the one process that makes the plan
 LOCAL_JOB_S = 0.05  # of a core: Snakemake starts a job
 SLURM_JOB_S = 4.0  # of a core: it submits a job, which starts a Snakemake of its own, which starts the run
-SLURM_SUBMIT_S = 0.3  # of that, in the one process that submits all jobs
+SLURM_SUBMIT_S = 0.06  # of that, in the one process that submits all jobs
 SLURM_STATUS_S = 40.0  # between two looks of Snakemake's at its jobs
 FILES_OF_A_JOB = 3  # its log, and what Snakemake notes of it
 FILES_OF_A_STUDY = 24  # report, plan and figures, and Snakemake's own
@@ -98,7 +99,7 @@ def wall_s(cost, longest, slots, slurm):
     working = max(with_start(cost, slurm) / slots, with_start(longest, slurm))
     if slurm:
         working = max(working, cost.jobs * SLURM_SUBMIT_S) + SLURM_STATUS_S
-    return working + STUDY_S
+    return working + STUDY_S + cost.jobs * PLANNED_JOB_S
 
 
 def tell(wanted, text, profile, together):

@@ -36,5 +36,13 @@ def test_another_compiler_is_allowed_more(monkeypatch):
 
 
 def test_reads_what_a_board_says():
-    said = "40: instructions per decision, mean:  94930\n45: instructions per decision, mean:  2759410\n"
-    assert counts.SAID_BY_BOARD.findall(said) == ["94930", "2759410"]
+    said = """
+43: 38: planner
+43: 38: instructions per decision, least: 8480
+43: 38: instructions per decision, mean:  2759410
+43: 38: instructions per decision, most:  3791120
+43: 39: q_learning
+43: 39: instructions per decision, least: 24840
+43: 39: instructions per decision, mean:  94930
+"""
+    assert counts.SAID_BY_BOARD.findall(said) == [("planner", "2759410"), ("q_learning", "94930")]

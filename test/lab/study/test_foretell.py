@@ -54,15 +54,16 @@ def test_cores_share_the_work_and_no_seed_is_shared():
     seed = Cost(core_s=100.0, files=7, bytes=1000, jobs=1)
     all_seeds = foretell.total([seed], 60)
     assert vars(all_seeds) == {"core_s": 6000.0, "files": 420, "bytes": 60000, "jobs": 60}
-    start = foretell.LOCAL_JOB_S
-    assert foretell.wall_s(all_seeds, seed, 10, slurm=False) == pytest.approx(6 * (100.0 + start) + foretell.STUDY_S)
-    assert foretell.wall_s(all_seeds, seed, 1000, slurm=False) == pytest.approx(100.0 + start + foretell.STUDY_S)
+    start, before = foretell.LOCAL_JOB_S, foretell.STUDY_S + 60 * foretell.PLANNED_JOB_S
+    assert foretell.wall_s(all_seeds, seed, 10, slurm=False) == pytest.approx(6 * (100.0 + start) + before)
+    assert foretell.wall_s(all_seeds, seed, 1000, slurm=False) == pytest.approx(100.0 + start + before)
 
 
 def test_many_short_jobs_take_as_long_as_to_submit_them():
     job = Cost(core_s=0.1, files=1, bytes=1, jobs=1)
     wall = foretell.wall_s(job * 100_000, job, 1_000_000, slurm=True)
-    assert wall == pytest.approx(100_000 * foretell.SLURM_SUBMIT_S + foretell.SLURM_STATUS_S + foretell.STUDY_S)
+    submitting = 100_000 * (foretell.SLURM_SUBMIT_S + foretell.PLANNED_JOB_S)
+    assert wall == pytest.approx(submitting + foretell.SLURM_STATUS_S + foretell.STUDY_S)
 
 
 def test_tells_what_a_table_costs(tmp_path, monkeypatch, capsys):

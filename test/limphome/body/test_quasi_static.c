@@ -225,6 +225,22 @@ START_TEST(crawlers_against_each_other_turn_on_the_spot) {
 }
 END_TEST
 
+/* How many are found at a time changes no bit. */
+START_TEST(several_at_a_time_are_what_each_is_alone) {
+    const stance s = stand_flat(level);
+    const lh_shares shares[LH_MOTIONS] = {{{1.0f, 0.0f}}, {{-1.0f, 0.5f}}, {{0.25f, 1.0f}}, {{0.0f, -1.0f}}};
+    for (int32_t count = 1; count <= LH_MOTIONS; count++) {
+        lh_twist several[LH_MOTIONS];
+        lh_quasi_static_motions(&s.footing, ACTUATORS, count, shares, several);
+        for (int32_t m = 0; m < count; m++) {
+            const lh_twist alone = lh_quasi_static_motion(&s.footing, ACTUATORS, shares[m].of);
+            ck_assert_mem_eq(&several[m], &alone, sizeof alone);
+            ck_assert(alone.turn != 0.0f);
+        }
+    }
+}
+END_TEST
+
 START_TEST(a_locked_crawler_turns_it_to_its_side) {
     const stance s = stand_flat(level);
     for (int32_t crawler = LEFT; crawler <= RIGHT; crawler++) {
@@ -377,6 +393,7 @@ Suite *suite(void) {
     t = tcase_create("motion");
     tcase_add_test(t, both_crawlers_alike_drive_straight_without_slip);
     tcase_add_test(t, crawlers_against_each_other_turn_on_the_spot);
+    tcase_add_test(t, several_at_a_time_are_what_each_is_alone);
     tcase_add_test(t, a_locked_crawler_turns_it_to_its_side);
     tcase_add_test(t, the_motion_loses_least_power);
     tcase_add_test(t, the_opposite_of_an_action_does_the_opposite);
