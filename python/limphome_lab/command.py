@@ -2,6 +2,7 @@
 
 import argparse
 import difflib
+import tempfile
 from pathlib import Path
 
 from limphome_lab import paths
@@ -28,6 +29,19 @@ def parser(name, description, example):
     """Parser for the command `name`; `example`: words after the command that show how it is used."""
     epilog = f"example: {called(name)} {example}"
     return _Parser(prog=called(name), description=description, epilog=epilog)
+
+
+def file_to_write(text):
+    """Type of an argument: Path of a file written once all is measured; one that cannot be is told of now."""
+    path = Path(text)
+    try:
+        if path.exists():
+            open(path, "ab").close()
+        else:
+            tempfile.TemporaryFile(dir=path.parent).close()
+    except OSError as error:
+        raise argparse.ArgumentTypeError(f"{text or path}: {error.strerror}") from error
+    return path
 
 
 def did_you_mean(name, suffix):

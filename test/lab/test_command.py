@@ -1,5 +1,7 @@
 """What is said where a name is mistaken, or a pattern has matched more than one run."""
 
+import argparse
+
 import pytest
 
 from limphome_lab import command
@@ -36,3 +38,14 @@ def test_a_pattern_that_matched_two_runs_is_told_of(tmp_path, capsys):
     with pytest.raises(SystemExit):
         parser.parse_args([str(tmp_path / "a"), "--what"])
     assert "unrecognized arguments: --what" in capsys.readouterr().err
+
+
+def test_file_to_write_is_refused_before_anything_is_measured(tmp_path):
+    fresh = tmp_path / "fresh.json"
+    assert command.file_to_write(str(fresh)) == fresh
+    assert not fresh.exists(), "an empty file would say that something was measured"
+    fresh.write_text("kept")
+    assert command.file_to_write(str(fresh)).read_text() == "kept"
+    for bad in (tmp_path, tmp_path / "none" / "x.json", fresh / "x.json", ""):
+        with pytest.raises(argparse.ArgumentTypeError, match="directory"):
+            command.file_to_write(str(bad))

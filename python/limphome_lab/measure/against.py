@@ -10,10 +10,10 @@ TOLERANCE = 0.2  # share of a ratio that it may lose: what it varies by from run
 def read(path):
     """{name: ratio} of a file that `scripts/bench --json` has written."""
     try:
-        figures = json.loads(path.read_text())
+        figures = json.loads(path.read_text(), parse_int=float)
     except OSError as error:
         raise InputError(f"{path}: {error.strerror}") from error
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: not what scripts/bench --json writes: {error}") from error
     try:
         ratios = {figure["name"]: figure["ratio"] for figure in figures}
@@ -22,7 +22,9 @@ def read(path):
             f"{path}: not what scripts/bench --json writes: a list of figures, each with name and ratio"
         ) from error
     for name, ratio in ratios.items():
-        if isinstance(ratio, bool) or not isinstance(ratio, int | float) or not 0 < ratio < float("inf"):
+        if not isinstance(name, str):
+            raise InputError(f"{path}: name {name!r}: must be a text")
+        if not isinstance(ratio, float) or not 0 < ratio < float("inf"):
             raise InputError(f"{path}: ratio of {name} is {ratio!r}: must be a number above 0")
     if not ratios:
         raise InputError(f"{path}: holds no figure")

@@ -171,7 +171,9 @@ def parse_arguments():
     parser = command.parser(
         "bench", "Measures speed, each figure against a baseline of the same run.", "--json bench.json"
     )
-    parser.add_argument("--json", metavar="FILE", type=Path, help="write name, value, unit, baseline and ratio of each")
+    parser.add_argument(
+        "--json", metavar="FILE", type=command.file_to_write, help="write name, value, unit, baseline and ratio of each"
+    )
     parser.add_argument(
         "--against",
         metavar="FILE",

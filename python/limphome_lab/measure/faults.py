@@ -107,8 +107,12 @@ def parse_arguments():
     parser = command.parser(
         "faults", "Injects faults into link, programs and files, and tells what came of each.", "--json faults.json"
     )
-    parser.add_argument("--json", metavar="FILE", type=Path, help="write the rows, with their whole texts")
-    parser.add_argument("--markdown", metavar="FILE", type=Path, help="write them as a page, such as docs/faults.md")
+    parser.add_argument(
+        "--json", metavar="FILE", type=command.file_to_write, help="write the rows, with their whole texts"
+    )
+    parser.add_argument(
+        "--markdown", metavar="FILE", type=command.file_to_write, help="write them as a page, such as docs/faults.md"
+    )
     parser.add_argument("-k", dest="selected", metavar="WORDS", help="only those whose test's name holds these words")
     return parser.parse_args()
 

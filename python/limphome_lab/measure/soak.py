@@ -189,8 +189,8 @@ def parse_arguments():
     parser.add_argument("--decisions", type=int, default=1_000_000, metavar="N", help="in lockstep; 0: not at all")
     parser.add_argument("--seconds", type=float, default=3600, metavar="S", help="in real time; 0: not at all")
     parser.add_argument("--config", default=paths.CONFIG / "paper.ini", help="experiment (INI)")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write all figures, samples too")
-    parser.add_argument("--plot", type=Path, metavar="FILE", help="draw the samples (PNG, SVG)")
+    parser.add_argument("--json", type=command.file_to_write, metavar="FILE", help="write all figures, samples too")
+    parser.add_argument("--plot", type=command.file_to_write, metavar="FILE", help="draw the samples (PNG, SVG)")
     parser.add_argument("--network", choices=("private", "host"), default="private", help="as for train")
     return parser.parse_args()
 

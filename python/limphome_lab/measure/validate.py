@@ -2,7 +2,6 @@
 
 import json
 import sys
-from pathlib import Path
 
 from limphome_lab import command
 from limphome_lab.ending import with_exit_code
@@ -16,8 +15,8 @@ def parse_arguments():
         "--quick --json validation.json",
     )
     parser.add_argument("--quick", action="store_true", help="cases only: no MuJoCo, no convergence")
-    parser.add_argument("--json", metavar="FILE", type=Path, help="write all figures")
-    parser.add_argument("--report", metavar="FILE", type=Path, help="write a page of Markdown")
+    parser.add_argument("--json", metavar="FILE", type=command.file_to_write, help="write all figures")
+    parser.add_argument("--report", metavar="FILE", type=command.file_to_write, help="write a page of Markdown")
     args = parser.parse_args()
     if args.quick and args.report:
         parser.error("a report needs more than --quick measures")

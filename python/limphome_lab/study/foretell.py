@@ -52,7 +52,7 @@ def machine(text):
 def jobs_at_a_time(profile):
     """What Snakemake's profile allows; None: as many as there are."""
     try:
-        match = re.search(r"^jobs: *(\d+)", (Path(profile) / "config.yaml").read_text(), re.MULTILINE)
+        match = re.search(r"^jobs: *(\d+)", (Path(profile) / "config.yaml").read_text(errors="replace"), re.MULTILINE)
     except OSError as error:
         raise InputError(f"{profile}: no profile of Snakemake: {error.strerror}: config.yaml") from error
     return int(match[1]) if match else None

@@ -149,7 +149,7 @@ def main():
     args = parse_arguments()
     raise_on_signals()
     wanted = table.read(args.table)
-    if args.foretell:
+    if args.foretell is not None:
         foretell.tell(wanted, args.foretell, args.profile, together=not args.two_processes)
         return 0
     plan = Plan(wanted, args.out or paths.STUDIES / wanted.name, together=not args.two_processes)

@@ -42,6 +42,11 @@ def test_names_what_fell_beyond_the_tolerance():
         ([{"name": "a"}], "name and ratio"),
         ([{"name": "a", "ratio": "fast"}], "ratio of a is 'fast'"),
         ([{"name": "a", "ratio": 0}], "must be a number above 0"),
+        ([{"name": "a", "ratio": True}], "must be a number above 0"),
+        ([{"name": "a", "ratio": 10**400}], "ratio of a is inf"),
+        ([{"name": None, "ratio": 1}], "name None: must be a text"),
+        ([{"name": 1, "ratio": 1}], "name 1.0: must be a text"),
+        ("[" * 100_000, "not what scripts/bench --json writes"),
         ('[{"name": "a", "ratio": NaN}]', "ratio of a is nan"),
     ],
 )

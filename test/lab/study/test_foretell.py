@@ -1,18 +1,29 @@
 """scripts/study --foretell: what one run of each case costs, times what the table asks for."""
 
+import subprocess
 import sys
 
 import pytest
 
+from limphome_lab import paths
 from limphome_lab.ending import Ending, InputError
 from limphome_lab.study import foretell
 from limphome_lab.study.foretell import Cost
 
 
-@pytest.mark.parametrize("text", ["64", "64x", "0x2", "2x0", "-1x2", "2 x 2", "2x2x2", "manyx2"])
+@pytest.mark.parametrize("text", ["", "64", "64x", "0x2", "2x0", "-1x2", "2 x 2", "2x2x2", "manyx2"])
 def test_machine_that_is_none_is_refused(text):
     with pytest.raises(InputError, match="nodes x cores"):
         foretell.machine(text)
+
+
+def test_machine_that_has_no_name_makes_no_study(tmp_path):
+    words = [sys.executable, "-m", "limphome_lab.study.study", paths.CONFIG / "studies" / "smoke.toml"]
+    words += ["--foretell", "", "--out", tmp_path / "study"]
+    result = subprocess.run(words, capture_output=True, text=True, timeout=20)
+    assert result.returncode == 2
+    assert "nodes x cores" in result.stderr
+    assert not (tmp_path / "study").exists()
 
 
 def test_machine():
@@ -21,6 +32,8 @@ def test_machine():
 
 def test_profile_tells_how_many_jobs_there_may_be(tmp_path):
     (tmp_path / "config.yaml").write_text("executor: slurm\njobs: 200 # at a time\n")
+    assert foretell.jobs_at_a_time(tmp_path) == 200
+    (tmp_path / "config.yaml").write_bytes(b"# caf\xe9\njobs: 200\n")
     assert foretell.jobs_at_a_time(tmp_path) == 200
     (tmp_path / "config.yaml").write_text("executor: slurm\n")
     assert foretell.jobs_at_a_time(tmp_path) is None
