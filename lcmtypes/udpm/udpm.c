@@ -14,7 +14,6 @@
 #include "url.h"
 
 enum { HEARING_TRIES = 10, HEARING_MS = 100 };
-enum { WATCH_US = 100, MOST_VAIN = 63 };
 
 static const char DEFAULT_URL[] = "udpm://239.255.76.67:7667?ttl=0";
 static const char SELF_TEST[] = "LCM_SELF_TEST"; /* LCM's name for it */
@@ -144,18 +143,14 @@ int udpm_fileno(const udpm *bus) {
     return bus->receiver;
 }
 
-static int64_t now_us(clockid_t clock) {
-    struct timespec now;
-    clock_gettime(clock, &now);
-    return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
-}
-
 /* Hands a message to whoever subscribed to its channel; whether anybody has. */
 static bool hand_over(udpm *bus, const char *channel, void *data, size_t size) {
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
     const lcm_recv_buf_t buffer = {
         .data = data,
         .data_size = (uint32_t)size,
-        .recv_utime = now_us(CLOCK_REALTIME),
+        .recv_utime = (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000,
     };
     bool heard = false;
     for (int i = 0; i < bus->num_subscriptions; i++) {
@@ -193,39 +188,13 @@ static int wait_for_other(udpm *bus, int milliseconds) {
     return 0;
 }
 
-static int poll_receiver(const udpm *bus, int milliseconds) {
-    struct pollfd waiting = {.fd = bus->receiver, .events = POLLIN};
-    const int count = poll(&waiting, 1, milliseconds);
-    return count < 0 && errno == EINTR ? 0 : count;
-}
-
-/* Looks again and again for what is about to come: to be woken takes as long as many an answer, some 25 us. Where
- * nothing came, as the answer takes longer or whoever gives it needs this very core, it is done half as often. */
-static int watch(udpm *bus) {
-    if (bus->asleep > 0) {
-        bus->asleep--;
-        return 0;
-    }
-    const int64_t end = now_us(CLOCK_MONOTONIC) + WATCH_US;
-    int count;
-    do {
-        count = poll_receiver(bus, 0);
-    } while (count == 0 && now_us(CLOCK_MONOTONIC) < end);
-    bus->vain = count != 0 ? 0 : bus->vain < MOST_VAIN ? 2 * bus->vain + 1 : MOST_VAIN;
-    bus->asleep = bus->vain;
-    return count;
-}
-
 int udpm_wait(udpm *bus, int milliseconds) {
     if (bus->other != NULL) {
         return wait_for_other(bus, milliseconds);
     }
-    const int count = poll_receiver(bus, 0);
-    if (count != 0 || milliseconds == 0) {
-        return count;
-    }
-    const int watched = watch(bus);
-    return watched != 0 ? watched : poll_receiver(bus, milliseconds);
+    struct pollfd waiting = {.fd = bus->receiver, .events = POLLIN};
+    const int count = poll(&waiting, 1, milliseconds);
+    return count < 0 && errno == EINTR ? 0 : count;
 }
 
 bool udpm_handle(udpm *bus) {

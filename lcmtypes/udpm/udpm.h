@@ -35,8 +35,6 @@ typedef struct udpm {
     void (*other_works)(void *user); /* lets it */
     void *other_user;
     bool spoken_to;    /* by the other, since we have waited */
-    int vain;          /* waits that begin asleep, as of late nothing came soon */
-    int asleep;        /* of these, those still to come */
     bool filtered;     /* the kernel does so for the receiver */
     uint32_t next_seq; /* of datagrams sent; LCM counts them so */
     int num_subscriptions;

@@ -9,8 +9,9 @@ namespace {
 
 // What sticks is held against its slip this much stiffer than a sweep brings it to rest; the sweep then does the rest.
 constexpr double stiff = 1e5;
-// Jumps all the way and, if that makes things worse, by this share.
-constexpr double shares[] = {1, 0.3};
+// A jump is good if the sweep after it changes no more than this share of what the one before it did. What it only made
+// a little better may have led away from where sweeps would have come to.
+constexpr double good = 0.1;
 // Of the matrix below; those of one that is not sheer friction are 1 and above.
 constexpr double least_pivot = 0.1;
 
@@ -134,20 +135,20 @@ bool ContactProblem<dofs>::find_target(const std::vector<JointConstraint> &joint
     return true;
 }
 
-// From the start towards the target: what lies between the two is within the limits of friction, too.
 template <int dofs>
-void ContactProblem<dofs>::go(double share, std::vector<JointConstraint> &joints, std::vector<Contact> &contacts) {
-    velocity_ = start_.velocity + share * (target_.velocity - start_.velocity);
+void ContactProblem<dofs>::go(const State &state, std::vector<JointConstraint> &joints,
+                              std::vector<Contact> &contacts) {
+    velocity_ = state.velocity;
     for (const JointRow &row : joint_rows_) {
-        const double from = start_.joints[row.joint];
-        joints[row.joint].impulse = from + share * (target_.joints[row.joint] - from);
+        joints[row.joint].impulse = state.joints[row.joint];
     }
     for (std::size_t i = 0; i < contacts.size(); i++) {
-        contacts[i].impulse = start_.contacts[i] + share * (target_.contacts[i] - start_.contacts[i]);
+        contacts[i].impulse = state.contacts[i];
     }
 }
 
-// Jumps and sweeps. Returns whether that has changed less than the sweep before it, `largest`; else all is as it was.
+// Jumps and sweeps. Returns whether that sweep has changed far less than the one before it, `largest`; else all is as
+// it was.
 template <int dofs>
 bool ContactProblem<dofs>::jump(double &largest, std::vector<JointConstraint> &joints, std::vector<Contact> &contacts) {
     if (!find_target(joints, contacts)) {
@@ -161,15 +162,13 @@ bool ContactProblem<dofs>::jump(double &largest, std::vector<JointConstraint> &j
     for (std::size_t i = 0; i < contacts.size(); i++) {
         start_.contacts[i] = contacts[i].impulse;
     }
-    for (const double share : shares) {
-        go(share, joints, contacts);
-        const double change = sweep(joints, contacts);
-        if (change < largest) {
-            largest = change;
-            return true;
-        }
+    go(target_, joints, contacts);
+    const double change = sweep(joints, contacts);
+    if (change < good * largest) {
+        largest = change;
+        return true;
     }
-    go(0, joints, contacts);
+    go(start_, joints, contacts);
     return false;
 }
 

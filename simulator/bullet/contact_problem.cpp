@@ -9,7 +9,7 @@ namespace {
 // Sweeps end early once none of them changes a velocity by more than this [m/s, rad/s].
 constexpr double velocity_tolerance = 1e-7;
 // After a jump that was taken back, so many sweeps come before the next one.
-constexpr int sweeps_between = 5;
+constexpr int sweeps_between = 8;
 // What a contact between two bodies gives way along its tangents at the least, as a share of what the ground does.
 constexpr double least_effect = 1e-6;
 // What moves against the ground by less than this sticks to it [m/s].
@@ -174,7 +174,7 @@ void ContactProblem<dofs>::relieve(std::vector<Contact> &contacts) {
         if (sticks(contact, rows_[i])) {
             Grip &grip = grips_.emplace_back();
             grip.contact = i;
-            grip.response.template topRows<dofs>() = rows_[i].columns.template rightCols<2>();
+            grip.response.template topRows<dofs>() = root_.lazyProduct(rows_[i].columns.template rightCols<2>());
             grip.limit = contact.friction * contact.impulse[0];
             grip.impulse = contact.impulse.tail<2>();
         }

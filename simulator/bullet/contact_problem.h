@@ -2,7 +2,8 @@
 //
 // Sweeps bring each contact in turn to a state that fulfils the law of its ground spring and the law of friction
 // (friction.h). Between sweeps all of them jump at once to where they would be if each kept on doing what it does:
-// nothing, sticking, or slipping in its direction (Newton's method). A jump that makes things worse is taken back.
+// nothing, sticking, or slipping in its direction (Newton's method). A jump that does not make things far better is
+// taken back.
 #pragma once
 
 #include <Eigen/Core>
@@ -94,7 +95,7 @@ class ContactProblem {
     bool find_target(const std::vector<JointConstraint> &joints, const std::vector<Contact> &contacts);
     JointLaw law(const JointConstraint &joint, const JointRow &row) const;
     ContactLaw law(const Contact &contact, const ContactRow &row) const;
-    void go(double share, std::vector<JointConstraint> &joints, std::vector<Contact> &contacts);
+    void go(const State &state, std::vector<JointConstraint> &joints, std::vector<Contact> &contacts);
 
     Square root_;
     Velocity velocity_;  // scaled, what all impulses so far make of it
