@@ -140,8 +140,8 @@ def test_video_shows_the_robot_move(smoke_run, tmp_path):
     both = pictures[:, :48]  # without the caption
     moved = np.abs(np.diff(both, axis=0)).max(axis=(1, 2, 3))
     assert (moved[: int(driving) - 1] > 20).all(), "each picture is another"
-    # the page brings lines and belts, unlike where things are, up to date in a later picture
-    assert (moved[int(driving) + 5 :] < 20).all(), "and at the end it stands"
+    # the page brings lines and belts, unlike where things are, up to date in a later picture, a slow one some later
+    assert (moved[int(driving) + 8 :] < 20).all(), "and at the end it stands"
     assert [each.name for each in tmp_path.iterdir()] == [file.name]
 
 

@@ -30,6 +30,7 @@ OPTIONS = (
 )
 START_S = 180.0
 PICTURE_S = 300.0
+END_S = 10.0
 SETTLING = 40  # pictures at most until nothing changes any more
 
 
@@ -66,6 +67,11 @@ class Browser:
 
     def __exit__(self, *_):
         self._child.stop()
+        # processes of its own, which end after it, may still put files there
+        until = time.monotonic() + END_S
+        while Path(self._folder.name).exists() and time.monotonic() < until:
+            shutil.rmtree(self._folder.name, ignore_errors=True)
+            time.sleep(0.05)
         self._folder.cleanup()
 
     def _connected(self):
