@@ -102,13 +102,15 @@ void compare(const settings &s, bool tumbled) {
         pose.translation() << x, y, ground.height(x, y) + (tumbled ? 0.3 : 0.02) * any(generator);
         robot.set_pose(pose);
 
-        std::vector<Touch> expected, found;
+        std::vector<Touch> searched, expected, found;
         for (int piece = 0; piece < ground.pieces(); piece++) {
-            search_rims(robot, ground, piece, expected);
-            search_balls(robot, ground, piece, expected);
+            search_rims(robot, ground, piece, searched);
+            search_balls(robot, ground, piece, searched);
         }
-        std::stable_sort(expected.begin(), expected.end(),
-                         [](const Touch &a, const Touch &b) { return a.shape < b.shape; });
+        const auto by_shape = [](const Touch &a, const Touch &b) { return a.shape < b.shape; };
+        for (const Touch &touch : searched) {
+            expected.insert(std::upper_bound(expected.begin(), expected.end(), touch, by_shape), touch);
+        }
         ground_touches(robot, ground, found);
         for (std::vector<Touch> *touches : {&expected, &found}) {
             const auto beyond = [](const Touch &touch) { return touch.depth > deepest || touch.depth < -widest_gap; };
