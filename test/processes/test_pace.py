@@ -57,7 +57,7 @@ def looked_at_closely(bus, _assignments):
         say(bus, pace_t.STEP)
         seen["stepped"].append(look(bus, 0.3)[-1].utime)
     say(bus, pace_t.RUN, 0.1)  # a decision takes 5 s: it is paused in the midst of one
-    slow = look(bus, LOOKS_S)
+    slow = [pose for pose in look(bus, LOOKS_S) if pose.pace != 0]  # one may still tell of the pause
     seen["slow"] = [[pose.pace, pose.utime] for pose in (slow[0], slow[-1])]
     say(bus, pace_t.PAUSE)
     look(bus, 0.3)
@@ -169,7 +169,7 @@ def test_looking_closer_changes_no_byte(tmp_path, unwatched, observe):
     assert seen["stepped"] == [seen["paused"][0] + n * PERIOD_US for n in (1, 2, 3)]
     (pace, first), (_, last) = seen["slow"]
     assert pace == 0.1
-    assert 0 < last - first <= 0.1 * (LOOKS_S + 0.2) * 1e6  # a slow machine may be slower
+    assert 0 < last - first <= 0.1 * (LOOKS_S + 1) * 1e6  # a slow machine may be slower
     assert len(seen["within"]) == 1 and seen["within"][0] % PERIOD_US != 0
     assert_same_bytes(RunFolder(tmp_path / "run"), unwatched)
     observe(f"waited, stood still at {seen['paused'][0]} and {seen['within'][0]} us of plant time; the same bytes")

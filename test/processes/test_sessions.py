@@ -236,4 +236,5 @@ def anonymous(folder):
         request.sender = 5
         bus.say(RESET, request)
         bus.say(COMMAND, velocity_command_t())
+        bus.status()  # may have been under way before
         return bus.status().rejected_malformed
