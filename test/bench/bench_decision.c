@@ -2,18 +2,12 @@
  * [s], share of the decisions that took the action the library takes. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "decision.h"
 #include "limphome/task/action.h"
+#include "timing.h"
 
 enum { ROUNDS = 15, CHECKED = 200 };
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void pose(problem *p, int32_t num_controlled) {
     lh_q_learning_config config = lh_q_learning_config_default();
@@ -38,11 +32,11 @@ static void pose(problem *p, int32_t num_controlled) {
 
 static double seconds_per_decision(const method *m, const problem *p, int32_t count) {
     m->begin(p);
-    const double start = now();
+    const double start = timing_now(CLOCK_PROCESS_CPUTIME_ID);
     for (int32_t k = 0; k < count; k++) {
         m->decide(k);
     }
-    return (now() - start) / count;
+    return (timing_now(CLOCK_PROCESS_CPUTIME_ID) - start) / count;
 }
 
 /* All ways must make the same decisions, but for ties that rounding turns. */
@@ -58,11 +52,6 @@ static int32_t agreement(const method *m, const problem *p) {
         same += m->decide(k) == expected[k];
     }
     return same;
-}
-
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 int main(void) {
@@ -88,8 +77,7 @@ int main(void) {
         }
     }
     for (int r = 0; r < RUNS; r++) {
-        qsort(seconds[r], ROUNDS, sizeof(double), ascending);
-        printf("%s %.4g %.3f\n", runs[r].title, seconds[r][ROUNDS / 2],
+        printf("%s %.4g %.3f\n", runs[r].title, timing_median(seconds[r], ROUNDS),
                (double)agreement(runs[r].method, runs[r].problem) / CHECKED);
     }
     return EXIT_SUCCESS;

@@ -7,29 +7,17 @@
  * Built with larger capacities than the library has by default. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "crawler.h"
 #include "limphome/task/action.h"
+#include "timing.h"
 
 enum { ROUNDS = 5, DECISIONS = 200 };
 
 #define PERIOD 0.5f
 
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void print(const char *curve, int32_t x, double *seconds) {
-    qsort(seconds, ROUNDS, sizeof *seconds, ascending);
-    printf("%s %d %.4g\n", curve, x, seconds[ROUNDS / 2]);
+    printf("%s %d %.4g\n", curve, x, timing_median(seconds, ROUNDS));
 }
 
 static void need(lh_error error) {
@@ -50,14 +38,14 @@ static double q_learning_seconds(int32_t units, int32_t actuators) {
     need(lh_q_learning_init(&learner, &config, states, actuators, 1));
     const float at[LH_MAX_STATE_INPUTS] = {0.5f, 0.3f, 0.7f, 0.4f};
     const int32_t count = 1 + 200000 / (units * lh_action_count(actuators) / 27 + units);
-    const double begin = now();
+    const double begin = timing_now(CLOCK_PROCESS_CPUTIME_ID);
     for (int32_t k = 0; k < count; k++) {
         const float q_max = lh_q_learning_evaluate(&learner, at);
         lh_choice choice;
         lh_q_learning_choose(&learner, 0.5f, false, &choice);
         lh_q_learning_learn(&learner, at, choice.action, 1.0f, q_max, false);
     }
-    return (now() - begin) / count;
+    return (timing_now(CLOCK_PROCESS_CPUTIME_ID) - begin) / count;
 }
 
 static void q_learning(const char *curve, int32_t x, int32_t units, int32_t actuators) {
@@ -99,9 +87,9 @@ static double planner_seconds(int32_t decisions) {
     double spent = 0.0;
     for (int32_t i = 0; i < decisions; i++) {
         lh_decision decision;
-        const double start = now();
+        const double start = timing_now(CLOCK_PROCESS_CPUTIME_ID);
         need(lh_controller_step(&controller, &state, &decision));
-        spent += now() - start;
+        spent += timing_now(CLOCK_PROCESS_CPUTIME_ID) - start;
         for (int32_t k = 2; k < robot->num_actuators; k++) {
             const float angle = state.actuator_position[k] + PERIOD * decision.velocity[k];
             const lh_actuator *joint = &robot->actuators[k];
@@ -136,9 +124,9 @@ static void over_samples(void) {
 static void over_postures(void) {
     const float ranges[] = {0.3f, 0.5f, 0.7f, 1.0f, 1.2f};
     for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
-        const double start = now();
+        const double start = timing_now(CLOCK_PROCESS_CPUTIME_ID);
         begin(ranges[i]);
-        double sweep[ROUNDS] = {now() - start};
+        double sweep[ROUNDS] = {timing_now(CLOCK_PROCESS_CPUTIME_ID) - start};
         for (int k = 1; k < ROUNDS; k++) {
             sweep[k] = sweep[0];
         }

@@ -2,20 +2,14 @@
  * name, median processor time per decision [s], share of the decisions that took the action the library takes. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #include "crawler.h"
 #include "planner.h"
+#include "timing.h"
 
 enum { ROUNDS = 5, WARMING_UP = 3000 };
 
 #define PERIOD 0.5f
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static lh_planner planner;
 static const course_of_decisions *given;
@@ -94,16 +88,11 @@ static int32_t actions[OBSERVATIONS];
 
 static double seconds_per_decision(const planner_method *m, const course_of_decisions *course) {
     m->begin(course);
-    const double start = now();
+    const double start = timing_now(CLOCK_PROCESS_CPUTIME_ID);
     for (int32_t k = 0; k < OBSERVATIONS; k++) {
         actions[k] = m->decide(k);
     }
-    return (now() - start) / OBSERVATIONS;
-}
-
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    return (timing_now(CLOCK_PROCESS_CPUTIME_ID) - start) / OBSERVATIONS;
 }
 
 int main(void) {
@@ -129,8 +118,7 @@ int main(void) {
         }
     }
     for (int r = 0; r < RUNS; r++) {
-        qsort(seconds[r], ROUNDS, sizeof(double), ascending);
-        printf("%s %.4g %.3f\n", runs[r].title, seconds[r][ROUNDS / 2], (double)same[r] / OBSERVATIONS);
+        printf("%s %.4g %.3f\n", runs[r].title, timing_median(seconds[r], ROUNDS), (double)same[r] / OBSERVATIONS);
     }
     return EXIT_SUCCESS;
 }

@@ -8,12 +8,12 @@
 #include <stdlib.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "limphome_channels.h"
 #include "limphome_robot_state_t.h"
 #include "limphome_velocity_command_t.h"
+#include "timing.h"
 #include "udpm.h"
 
 enum { ROUND_TRIPS = 5000, REPEAT_MS = 5, SECOND = 1000 };
@@ -95,28 +95,17 @@ static int answer(bool liblcm, const char *url) {
     }
 }
 
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* Publishes state `seq` until it is answered. */
 static double round_trip(bus *b, int64_t seq, const int64_t *answered) {
     unsigned char bytes[1024];
     limphome_robot_state_t state = {.seq = seq};
-    const double start = now();
+    const double start = timing_now(CLOCK_MONOTONIC);
     while (*answered != seq) {
         say(b, LIMPHOME_CHANNEL_STATE, bytes, limphome_robot_state_t_encode(bytes, 0, sizeof bytes, &state));
         while (*answered != seq && handle(b, REPEAT_MS)) {
         }
     }
-    return now() - start;
-}
-
-static int ascending(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    return timing_now(CLOCK_MONOTONIC) - start;
 }
 
 static bool measure(bool liblcm, const char *url) {
@@ -131,9 +120,8 @@ static bool measure(bool liblcm, const char *url) {
         seconds[i] = round_trip(&b, 2 + i, &answered);
     }
     leave(&b);
-    qsort(seconds, ROUND_TRIPS, sizeof *seconds, ascending);
-    printf("%s %.6g %.6g\n", liblcm ? "liblcm" : "udpm", seconds[ROUND_TRIPS / 2],
-           seconds[ROUND_TRIPS - ROUND_TRIPS / 100]);
+    const double median = timing_median(seconds, ROUND_TRIPS);
+    printf("%s %.6g %.6g\n", liblcm ? "liblcm" : "udpm", median, seconds[ROUND_TRIPS - ROUND_TRIPS / 100]);
     return fflush(stdout) == 0;
 }
 
